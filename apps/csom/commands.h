@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sub-commands: each adds itself to the program and runs when chosen. Failures are exceptions:
+// ConfigError, OptionError and CLI::Error end with exit code 2, any other with 1.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace csom {
+
+void addSimulateCommand(CLI::App& program);
+void addImportCommand(CLI::App& program);
+void addMapCommand(CLI::App& program);
+void addInfoCommand(CLI::App& program);
+void addQueryCommand(CLI::App& program);
+void addMergeCommand(CLI::App& program);
+void addExportCommand(CLI::App& program);
+
+}  // namespace csom

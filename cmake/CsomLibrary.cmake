@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# One way to declare a library, a program and a test, with the project's warnings.
+
+add_library(csom_warnings INTERFACE)
+target_compile_options(csom_warnings INTERFACE -Wall -Wextra -Wconversion -Wshadow -Werror)
+
+# csom_add_library(core SOURCES … LINK … [PRIVATE_LINK …] [SHARED])
+function(csom_add_library name)
+  cmake_parse_arguments(arg "SHARED" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  set(kind STATIC)
+  if(arg_SHARED)
+    set(kind SHARED)
+  endif()
+  add_library(csom-${name} ${kind} ${arg_SOURCES})
+  add_library(csom::${name} ALIAS csom-${name})
+  set_target_properties(csom-${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(csom-${name}
+    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+           $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  target_compile_features(csom-${name} PUBLIC cxx_std_17)
+  target_link_libraries(csom-${name} PUBLIC ${arg_LINK} PRIVATE ${arg_PRIVATE_LINK} $<BUILD_INTERFACE:csom_warnings>)
+  set_property(GLOBAL APPEND PROPERTY CSOM_LIBRARIES csom-${name})
+endfunction()
+
+# csom_add_test(core/GridTest LINK csom::core …): test/core/GridTest.cpp becomes a program of its own.
+function(csom_add_test path)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  string(REPLACE "/" "_" target ${path})
+  add_executable(${target} ${CMAKE_SOURCE_DIR}/test/${path}.cpp ${arg_SOURCES})
+  target_link_libraries(${target} PRIVATE ${arg_LINK} csom_warnings GTest::gmock GTest::gtest_main)
+  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/test)
+  target_compile_definitions(${target} PRIVATE
+    CSOM_SOURCE_DIR="${CMAKE_SOURCE_DIR}" CSOM_BINARY_DIR="${CMAKE_BINARY_DIR}"
+    CSOM_PROGRAM="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/csom"
+    CSOM_PLUGIN="${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/libcsom-maps.so")
+  gtest_discover_tests(${target} TEST_PREFIX "${path}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endfunction()

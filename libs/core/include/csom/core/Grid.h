@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Metric ↔ voxel ↔ block ↔ chunk, in one place. Everything rounds down (floor), negative
+// coordinates included; the centre of voxel i is at (i+½)·r.
+#pragma once
+
+#include <csom/core/types.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+
+namespace csom {
+
+constexpr int kChunkBits = 3;
+constexpr int kChunkSide = 1 << kChunkBits;
+constexpr int kVoxelsPerChunk = kChunkSide * kChunkSide * kChunkSide;
+
+/// Chunk indices have 21 bits an axis, voxel indices therefore 24: ±8,388,608 voxels from the
+/// map's origin (1,677 km at 0.2 m). Two chunks at each end stay unused, so that kernels around the
+/// outermost point need no check.
+constexpr std::int32_t kMaxVoxelIndex = (1 << 23) - 1 - 1024;
+
+inline std::int32_t chunkOf(std::int32_t voxel) {
+  return voxel >> kChunkBits;
+}
+inline ChunkIndex chunkOf(const VoxelIndex& v) {
+  return {chunkOf(v.x), chunkOf(v.y), chunkOf(v.z)};
+}
+
+/// Position of a voxel inside its chunk: x + 8·y + 64·z, 0 … 511.
+inline int indexInChunk(const VoxelIndex& v) {
+  constexpr int mask = kChunkSide - 1;
+  return (v.x & mask) | ((v.y & mask) << kChunkBits) | ((v.z & mask) << (2 * kChunkBits));
+}
+inline VoxelIndex voxelOfChunk(const ChunkIndex& c, int index_in_chunk) {
+  constexpr int mask = kChunkSide - 1;
+  return {c.x * kChunkSide + (index_in_chunk & mask),
+          c.y * kChunkSide + ((index_in_chunk >> kChunkBits) & mask),
+          c.z * kChunkSide + (index_in_chunk >> (2 * kChunkBits))};
+}
+
+/// `block_depth` is D_b: a block is 2^(D_b−1) voxels a side.
+inline std::int32_t blockOf(std::int32_t voxel, int block_depth) {
+  return voxel >> (block_depth - 1);
+}
+inline BlockIndex blockOf(const VoxelIndex& v, int block_depth) {
+  return {blockOf(v.x, block_depth), blockOf(v.y, block_depth), blockOf(v.z, block_depth)};
+}
+
+/// The voxel grid of edge `resolution` [m].
+class Grid {
+ public:
+  explicit Grid(double resolution) : resolution_(resolution) {}
+
+  double resolution() const { return resolution_; }
+
+  /// True if the voxel that holds this point can be addressed; false for NaN and infinities.
+  bool contains(const Eigen::Vector3d& point) const {
+    const double limit = resolution_ * kMaxVoxelIndex;
+    return point.cwiseAbs().maxCoeff() <= limit && point.allFinite();
+  }
+  /// Requires contains(point).
+  VoxelIndex voxelAt(const Eigen::Vector3d& point) const {
+    return {indexOf(point.x()), indexOf(point.y()), indexOf(point.z())};
+  }
+  /// Division, not multiplication by 1/r: i·r then falls into voxel i for every i.
+  std::int32_t indexOf(double coordinate) const {
+    return static_cast<std::int32_t>(std::floor(coordinate / resolution_));
+  }
+  Eigen::Vector3d center(const VoxelIndex& v) const {
+    return {(v.x + 0.5) * resolution_, (v.y + 0.5) * resolution_, (v.z + 0.5) * resolution_};
+  }
+  Eigen::Vector3d lowerCorner(const VoxelIndex& v) const {
+    return {v.x * resolution_, v.y * resolution_, v.z * resolution_};
+  }
+
+ private:
+  double resolution_;
+};
+
+}  // namespace csom

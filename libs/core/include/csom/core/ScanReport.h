@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What became of the points of a scan.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace csom {
+
+/// Why a point was not used.
+enum class RejectReason {
+  NonFinite,          ///< NaN or infinite coordinates
+  TooNear,            ///< nearer than min_range
+  TooFar,             ///< farther than max_range
+  ClassOutOfRange,    ///< class id ≥ number_of_classes
+  InvalidScores,      ///< soft labels negative, non-finite or not summing to 1 ± 1e-3
+  OutsideIndexRange,  ///< beyond what voxel indices can address
+};
+constexpr std::size_t kRejectReasons = 6;
+
+/// "non-finite", "too-near", … as used in reports.
+const char* toString(RejectReason reason);
+
+/// Counts and stage timings of one insertion. Sums of reports are reports.
+struct ScanReport {
+  std::size_t points = 0;                              ///< as given
+  std::array<std::size_t, kRejectReasons> rejected{};  ///< by RejectReason
+  std::size_t training_points = 0;                     ///< hits left after down-sampling
+  std::size_t free_points = 0;                         ///< free samples left after down-sampling
+  std::size_t free_voxels = 0;                         ///< voxels crossed by beams (raycast)
+  std::size_t blocks_observed = 0;
+  std::size_t blocks_filled = 0;   ///< blocks with f_J = 1
+  std::size_t voxels_updated = 0;  ///< voxels that received any count
+  double prepare_ms = 0;           ///< reject, down-sample, free space, bin
+  double infer_ms = 0;             ///< entropies and kernels
+  double commit_ms = 0;            ///< adding the counts to the map
+
+  std::size_t rejectedTotal() const;
+  ScanReport& operator+=(const ScanReport& other);
+};
+
+}  // namespace csom

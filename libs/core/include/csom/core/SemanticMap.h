@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The map a user holds: scans go in, answers come out.
+#pragma once
+
+#include <csom/core/ChunkStore.h>
+#include <csom/core/DirichletVoxel.h>
+#include <csom/core/Grid.h>
+#include <csom/core/Options.h>
+#include <csom/core/ScanReport.h>
+#include <csom/core/types.h>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+namespace csom {
+
+/// Where a ray ended.
+struct RayHit {
+  VoxelIndex voxel;
+  Eigen::Vector3d point;  ///< where the ray enters that voxel [m]
+  double distance = 0;    ///< from the ray's origin to `point` [m]
+  ClassId class_id = kFreeClass;
+};
+
+/// An occupied voxel near a point.
+struct Neighbour {
+  VoxelIndex voxel;
+  double distance = 0;  ///< from the query point to the voxel's centre [m]
+  ClassId class_id = kFreeClass;
+};
+
+/// A continuous semantic occupancy map: the sum of the increments of its scans.
+///
+/// Frames and units: map frame, metres, radians. Thread-safety: any number of threads may call
+/// const members of one map at a time while no thread calls a non-const one. Copies share storage
+/// (copy-on-write) and may be used in different threads without locks.
+class SemanticMap {
+ public:
+  /// Throws OptionError.
+  explicit SemanticMap(const Options& options = {});
+
+  const Options& options() const { return options_; }
+  const Grid& grid() const { return grid_; }
+
+  /// Adds one scan. Bad points are rejected and counted, never thrown for; throws
+  /// std::invalid_argument if labels or scores do not match the number of points. The map is
+  /// unchanged if it throws.
+  ScanReport insert(const Scan& scan);
+
+  /// Adds another map of the same resolution, classes and prior, exactly: merge(a,b) holds the same
+  /// bits as one map that received the scans of both. Throws std::invalid_argument otherwise.
+  void merge(const SemanticMap& other);
+
+  void clear();
+  bool empty() const { return store_.chunkCount() == 0; }
+
+  /// The voxel that holds a point; unknown outside of the addressable range.
+  DirichletVoxel at(const Eigen::Vector3d& point) const;
+  DirichletVoxel voxel(const VoxelIndex& index) const;
+
+  /// First occupied voxel along a ray, by exact voxel traversal. The voxel of the origin counts.
+  /// With `stop_at_unknown` the ray also ends (without a hit) at the first unknown voxel.
+  /// `direction` need not be normalised; a zero or non-finite direction hits nothing.
+  std::optional<RayHit> castRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                                double max_range, bool stop_at_unknown = false) const;
+
+  /// Occupied voxel whose centre is nearest to `point`, at most `max_distance` away (ties: the
+  /// lowest index). With `only_class`, of that class alone.
+  std::optional<Neighbour> nearestOccupied(const Eigen::Vector3d& point, double max_distance,
+                                           std::optional<ClassId> only_class = std::nullopt) const;
+
+  /// Calls `visit(VoxelIndex, DirichletVoxel)` for every known voxel, chunk by chunk in z-major
+  /// order: the same order for equal maps.
+  template <class Visitor>
+  void forEachVoxel(Visitor&& visit) const;
+
+  /// The same for the known voxels of an inclusive box of voxels.
+  template <class Visitor>
+  void forEachVoxelInBox(const VoxelBox& box, Visitor&& visit) const;
+
+  /// The smallest box with all known voxels; nothing if the map is empty.
+  std::optional<VoxelBox> boundingBox() const;
+
+  std::size_t knownVoxelCount() const;
+  /// Bytes of all chunks and of the table that finds them. Chunks shared with copies count fully.
+  std::size_t memoryBytes() const;
+
+  /// The storage, for readers and writers of files and streams.
+  const ChunkStore& chunks() const { return store_; }
+  /// Adds the counts of a chunk record (see ChunkStore.h) to this map. Throws std::runtime_error
+  /// with the reason if the bytes are not a valid record of a map with `number_of_classes` classes.
+  void addChunkRecord(const ChunkIndex& index, const void* bytes, std::size_t size);
+
+ private:
+  DirichletVoxel view(const Chunk* chunk, int index_in_chunk) const;
+
+  Options options_;
+  Grid grid_;
+  ChunkStore store_;
+};
+
+// ---------------------------------------------------------------------------------------------
+
+template <class Visitor>
+void SemanticMap::forEachVoxel(Visitor&& visit) const {
+  for (const auto& [index, chunk] : store_.sorted()) {
+    const ChunkIndex origin = index;
+    chunk->forEachKnown(
+        [&](int in_chunk) { visit(voxelOfChunk(origin, in_chunk), view(chunk, in_chunk)); });
+  }
+}
+
+template <class Visitor>
+void SemanticMap::forEachVoxelInBox(const VoxelBox& box, Visitor&& visit) const {
+  const ChunkIndex lo = chunkOf(box.min);
+  const ChunkIndex hi = chunkOf(box.max);
+  const auto inside = [](std::int32_t v, std::int32_t min, std::int32_t max) {
+    return min <= v && v <= max;
+  };
+  for (const auto& [index, chunk] : store_.sorted()) {
+    if (!inside(index.x, lo.x, hi.x) || !inside(index.y, lo.y, hi.y) ||
+        !inside(index.z, lo.z, hi.z))
+      continue;
+    const ChunkIndex origin = index;
+    chunk->forEachKnown([&](int in_chunk) {
+      const VoxelIndex v = voxelOfChunk(origin, in_chunk);
+      if (inside(v.x, box.min.x, box.max.x) && inside(v.y, box.min.y, box.max.y) &&
+          inside(v.z, box.min.z, box.max.z))
+        visit(v, view(chunk, in_chunk));
+    });
+  }
+}
+
+}  // namespace csom

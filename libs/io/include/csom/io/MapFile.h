@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The `.csom` map file: a SQLite database, documented in docs/file-format.md.
+#pragma once
+
+#include <csom/core/SemanticMap.h>
+#include <csom/io/LabelSet.h>
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace csom {
+
+/// One observation that was inserted, as the table `scans` keeps it.
+struct ScanRecord {
+  double timestamp = 0;                    ///< seconds since 1970 (UTC); 0 if unknown
+  std::string sensor_label;
+  std::string observation_class;           ///< "CObservationVelodyneScan", …
+  std::array<double, 3> origin{0, 0, 0};   ///< sensor position in the map frame [m]
+  ScanReport report;
+};
+
+/// All that a map file holds.
+struct MapDocument {
+  SemanticMap map;
+  LabelSet labels = LabelSet::occupancy();
+  std::vector<ScanRecord> scans;
+  /// Free-form provenance: "created_by", "command", "rawlog", …
+  std::map<std::string, std::string> meta;
+};
+
+/// Writes `document` to `file`: to a temporary file beside it first, which then replaces it, so that
+/// `file` is never half written. Throws FileError.
+void saveMap(const MapDocument& document, const std::string& file);
+
+/// Throws FileError if `file` is no map, a damaged one, or of a later version.
+MapDocument loadMap(const std::string& file);
+
+/// Hash over resolution, classes, prior and all chunk records in order: equal for equal maps, however they were
+/// made. 16 hexadecimal digits (XXH3, 64 bits).
+std::string mapDigest(const SemanticMap& map);
+
+}  // namespace csom
