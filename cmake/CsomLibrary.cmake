@@ -24,8 +24,11 @@ function(csom_add_library name)
 endfunction()
 
 # csom_add_test(core/GridTest LINK csom::core …): test/core/GridTest.cpp becomes a program of its own.
+#   SOURCES …   further source files
+#   REAL_DATA   label `real-data`: needs the folder named by the environment variable CSOM_DATA
+#   RUN_SERIAL  runs alone: for tests that need the whole machine's memory or processors
 function(csom_add_test path)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(arg "REAL_DATA;RUN_SERIAL" "" "SOURCES;LINK" ${ARGN})
   string(REPLACE "/" "_" target ${path})
   add_executable(${target} ${CMAKE_SOURCE_DIR}/test/${path}.cpp ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE ${arg_LINK} csom_warnings GTest::gmock GTest::gtest_main)
@@ -34,5 +37,13 @@ function(csom_add_test path)
     CSOM_SOURCE_DIR="${CMAKE_SOURCE_DIR}" CSOM_BINARY_DIR="${CMAKE_BINARY_DIR}"
     CSOM_PROGRAM="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/csom"
     CSOM_PLUGIN="${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/libcsom-maps.so")
-  gtest_discover_tests(${target} TEST_PREFIX "${path}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  set(properties TIMEOUT 600)
+  if(arg_REAL_DATA)
+    list(APPEND properties LABELS real-data)
+  endif()
+  if(arg_RUN_SERIAL)
+    list(APPEND properties RUN_SERIAL TRUE)
+  endif()
+  gtest_discover_tests(${target} TEST_PREFIX "${path}." DISCOVERY_TIMEOUT 60
+    PROPERTIES ${properties})
 endfunction()
