@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The files that a run leaves for people and for scripts.
+#pragma once
+
+#include <csom/io/MapFile.h>
+#include <csom/report/RunRecord.h>
+#include <csom/report/TopView.h>
+
+#include <string>
+
+namespace csom {
+
+struct ReportOptions {
+  bool json = true;  ///< run.json
+  bool png = true;   ///< top.png
+  bool html = true;  ///< report.html
+  TopViewOptions top_view;
+};
+
+/// Writes the files into `folder`, which is created if missing. Each file is complete or absent:
+/// it is written beside its place and then renamed. Throws FileError.
+void writeReport(const RunRecord& record, const MapDocument& document, const std::string& folder,
+                 const ReportOptions& options = {});
+
+}  // namespace csom

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What one run of `csom map` was asked to do and what became of it: the source of every figure that
+// a report shows.
+#pragma once
+
+#include <csom/core/Options.h>
+#include <csom/core/ScanReport.h>
+#include <csom/io/MapFile.h>
+#include <csom/report/MapFigures.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace csom {
+
+/// A parameter of the run as it was in force, defaults included.
+struct Parameter {
+  std::string name;
+  std::variant<bool, std::int64_t, double, std::string> value;
+  std::string unit;  ///< "m", … or empty
+  std::string help;  ///< what it means, in a few words; may be empty
+};
+
+/// All fields of `options` under their ini names (see visitOptions).
+std::vector<Parameter> parametersOf(const Options& options);
+/// "0.2", "on", "see-csom": as it would stand in an ini file.
+std::string toText(const Parameter& parameter);
+
+/// One inserted observation.
+struct RunScan {
+  ScanRecord record;
+  double insert_ms = 0;  ///< wall time from the observation to the updated map [ms]
+};
+
+/// Observations that were read but did not reach the map.
+struct RefusedObservations {
+  std::string observation_class;  ///< "CObservationGPS", …
+  std::string reason;             ///< in plain words: "no range data"
+  std::size_t count = 0;
+};
+
+/// Filled by the one who runs; no invariants, nothing is computed behind one's back.
+struct RunRecord {
+  std::string program_version;
+  std::string command;              ///< the command line, quoted for a shell
+  std::vector<std::string> inputs;  ///< rawlogs or simplemaps
+  std::string config_file;          ///< empty: the defaults
+  std::vector<Parameter> parameters;
+  std::string pose_source;            ///< "robot-pose:GT", "odometry", …
+  std::string label_set;              ///< its name
+  std::size_t observations_read = 0;  ///< inserted and refused ones
+  std::vector<RunScan> scans;
+  std::vector<RefusedObservations> refused;
+  std::vector<std::string> warnings;
+  double wall_seconds = 0;
+};
+
+/// Sum over the scans.
+ScanReport totals(const RunRecord& record);
+
+/// The text of run.json (docs/report.md lists its keys). Numbers are the shortest that read back to
+/// the same value; what is not finite becomes null, bytes that are not UTF-8 become U+FFFD.
+std::string toJson(const RunRecord& record, const MapFigures& figures);
+
+}  // namespace csom
