@@ -13,7 +13,6 @@ foreach(library ${csom_libraries})
   get_target_property(source_folder ${library} SOURCE_DIR)
   install(DIRECTORY ${source_folder}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endforeach()
-install(TARGETS csom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
 install(DIRECTORY config/labels DESTINATION ${CSOM_INSTALL_DATADIR} FILES_MATCHING PATTERN "*.yaml")
 install(DIRECTORY config DESTINATION ${CSOM_INSTALL_DATADIR}
