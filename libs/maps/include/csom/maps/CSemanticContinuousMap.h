@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The semantic map as a metric map of MRPT.
+#pragma once
+
+#include <csom/core/SemanticMap.h>
+#include <csom/io/LabelSet.h>
+#include <csom/io/MapFile.h>
+#include <csom/maps/LabelRules.h>
+#include <csom/maps/ObservationAdapter.h>
+#include <csom/maps/OccupiedPoints.h>
+#include <mrpt/config/CConfigFileBase.h>
+#include <mrpt/config/CLoadableOptions.h>
+#include <mrpt/maps/CMetricMap.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace csom {
+
+/// What became of the observations that were offered to a map.
+struct InsertionStatistics {
+  std::size_t inserted = 0;                        ///< observations
+  std::size_t without_points = 0;                  ///< taken, but no point of them could be used
+  std::map<std::string, std::size_t> not_taken;    ///< by class name: kinds that carry no points
+  std::map<std::string, std::size_t> damaged;      ///< by class name
+  std::map<std::string, std::string> why_damaged;  ///< by class name: reason of the first one
+  LabelCounts labels;                              ///< sum over all observations
+};
+
+/// A continuous semantic occupancy map (see csom::SemanticMap) that MRPT's applications fill, save
+/// and query like any other metric map. docs/mrpt.md lists the keys of its ini sections.
+///
+/// Takes CObservationVelodyneScan, CObservationPointCloud, CObservation3DRangeScan,
+/// CObservationRotatingScan and CObservation2DRangeScan; insertObservation() returns false for any
+/// other kind and for damaged or empty observations.
+///
+/// Thread-safety: as SemanticMap; the likelihood and all other const members may be called from
+/// several threads at a time.
+class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
+  DEFINE_SERIALIZABLE(CSemanticContinuousMap, csom)
+
+ public:
+  /// Where the labels of points come from.
+  struct TInsertionOptions : public mrpt::config::CLoadableOptions {
+    PointLabels point_labels = PointLabels::None;
+    /// Class of points without a label, `drop`, or empty for the default (see LabelRules).
+    std::string unlabelled_class;
+    /// Class of all rays of 2-D scans, `drop`, or empty for unlabelled_class.
+    std::string scan_2d_class;
+
+    void loadFromConfigFile(const mrpt::config::CConfigFileBase& source,
+                            const std::string& section) override;
+    void dumpToTextStream(std::ostream& out) const override;
+  };
+
+  /// Likelihood field: log p = −½ · mean over the points of min(d, max_distance)²/sigma², d being
+  /// the distance to the nearest occupied voxel.
+  struct TLikelihoodOptions : public mrpt::config::CLoadableOptions {
+    int decimation = 10;        ///< uses one point out of so many
+    double max_distance = 1.0;  ///< [m]
+    double sigma = 0.25;        ///< [m]
+
+    void loadFromConfigFile(const mrpt::config::CConfigFileBase& source,
+                            const std::string& section) override;
+    void dumpToTextStream(std::ostream& out) const override;
+  };
+
+  struct TRenderingOptions : public mrpt::config::CLoadableOptions {
+    bool occupied_voxels = true;
+    bool free_voxels = false;
+
+    void loadFromConfigFile(const mrpt::config::CConfigFileBase& source,
+                            const std::string& section) override;
+    void dumpToTextStream(std::ostream& out) const override;
+  };
+
+  TInsertionOptions insertionOptions;
+  TLikelihoodOptions likelihoodOptions;
+  TRenderingOptions renderingOptions;
+
+  CSemanticContinuousMap();
+  /// `options.number_of_classes` is taken from the label set. Throws OptionError.
+  explicit CSemanticContinuousMap(const Options& options,
+                                  const LabelSet& labels = LabelSet::occupancy());
+  /// Copies share the voxels until one of them is written to. Observations that an adapter keeps
+  /// for later stay with the original.
+  CSemanticContinuousMap(const CSemanticContinuousMap& other);
+  CSemanticContinuousMap& operator=(const CSemanticContinuousMap& other);
+
+  const SemanticMap& map() const { return map_; }
+  const LabelSet& labels() const { return *labels_; }
+  /// One record for each inserted observation, in order.
+  const std::vector<ScanRecord>& scans() const { return scans_; }
+  const InsertionStatistics& statistics() const { return statistics_; }
+
+  /// The map as it goes to a file, and back. setDocument() keeps the MRPT-side options.
+  MapDocument document() const;
+  void setDocument(MapDocument document);
+
+  MAP_DEFINITION_START(CSemanticContinuousMap)
+  Options options;
+  LabelSet labels = LabelSet::occupancy();
+  TInsertionOptions insertionOpts;
+  TLikelihoodOptions likelihoodOpts;
+  TRenderingOptions renderOpts;
+
+  /// The same as loadFromConfigFile(), without warnings: unknown keys are only listed. Throws
+  /// ConfigError that names section, key, value and what is accepted.
+  void load(const mrpt::config::CConfigFileBase& source, const std::string& section_prefix);
+  /// Keys and sections that nothing reads, a line each: "FILE [section] key".
+  std::vector<std::string> unknownKeys() const { return unknown_keys_; }
+
+ private:
+  std::vector<std::string> unknown_keys_;
+
+ public:
+  MAP_DEFINITION_END(CSemanticContinuousMap)
+
+  /// The one map that `[application_section]` of an ini file defines by a `…_count` key under any
+  /// of the registered names. Throws FileError if the file cannot be read, ConfigError if it
+  /// defines no map of ours or more than one.
+  static TMapDefinition definitionFromIni(
+      const std::string& file, const std::string& application_section = "MappingApplication");
+  /// Same checks as CreateFromMapDefinition().
+  explicit CSemanticContinuousMap(const TMapDefinition& definition);
+
+  bool isEmpty() const override { return map_.empty(); }
+  std::string asString() const override;
+  void getVisualizationInto(mrpt::opengl::CSetOfObjects& scene) const override;
+  /// Writes PREFIX.csom. Throws FileError.
+  void saveMetricMapRepresentationToFile(const std::string& prefix) const override;
+  void auxParticleFilterCleanUp() override;
+
+  void determineMatching2D(const mrpt::maps::CMetricMap* other,
+                           const mrpt::poses::CPose2D& other_pose,
+                           mrpt::tfest::TMatchingPairList& correspondences,
+                           const mrpt::maps::TMatchingParams& params,
+                           mrpt::maps::TMatchingExtraResults& results) const override;
+  void determineMatching3D(const mrpt::maps::CMetricMap* other,
+                           const mrpt::poses::CPose3D& other_pose,
+                           mrpt::tfest::TMatchingPairList& correspondences,
+                           const mrpt::maps::TMatchingParams& params,
+                           mrpt::maps::TMatchingExtraResults& results) const override;
+  float compute3DMatchingRatio(const mrpt::maps::CMetricMap* other,
+                               const mrpt::poses::CPose3D& other_pose,
+                               const mrpt::maps::TMatchingRatioParams& params) const override;
+  float squareDistanceToClosestCorrespondence(float x0, float y0) const override;
+  /// Centres of the occupied voxels. Valid until the map is modified or destroyed.
+  const mrpt::maps::CSimplePointsMap* getAsSimplePointsMap() const override;
+
+ private:
+  void internal_clear() override;
+  bool internal_insertObservation(
+      const mrpt::obs::CObservation& observation,
+      const std::optional<const mrpt::poses::CPose3D>& robot_pose = std::nullopt) override;
+  double internal_computeObservationLikelihood(
+      const mrpt::obs::CObservation& observation,
+      const mrpt::poses::CPose3D& taken_from) const override;
+  bool internal_canComputeObservationLikelihood(
+      const mrpt::obs::CObservation& observation) const override;
+
+  LabelRules labelRules() const;
+  /// Returns true if any point was used.
+  bool insertScan(const AdaptedScan& adapted);
+  void noteDamaged(const mrpt::obs::CObservation& observation, const std::string& why);
+
+  SemanticMap map_;
+  std::shared_ptr<const LabelSet> labels_;  ///< never null; shared between copies
+  std::vector<ScanRecord> scans_;
+  InsertionStatistics statistics_;
+  std::map<std::string, std::string> meta_;      ///< of the document that was set
+  std::unique_ptr<ObservationAdapter> adapter_;  ///< made at the first insertion
+  OccupiedPoints occupied_points_;
+};
+
+}  // namespace csom

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points and labels of one observation, as the sensor sees them.
+#pragma once
+
+#include <csom/maps/LabelRules.h>
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+namespace csom {
+
+/// Points in the frame of the sensor, with one label each.
+struct SensorPoints {
+  mrpt::poses::CPose3D sensor_pose;     ///< on the robot
+  std::vector<Eigen::Vector3f> points;  ///< [m]; may hold non-finite values
+  std::vector<PointLabel> labels;       ///< as many as points
+
+  void reserve(std::size_t count) {
+    points.reserve(count);
+    labels.reserve(count);
+  }
+  void add(const Eigen::Vector3f& point, const PointLabel& label) {
+    points.push_back(point);
+    labels.push_back(label);
+  }
+};
+
+/// Reads one kind of observation. Stateless: any number of threads may use one extractor.
+class PointExtractor {
+ public:
+  virtual ~PointExtractor() = default;
+  /// True for observations of the kind that it reads.
+  virtual bool accepts(const mrpt::obs::CObservation& observation) const = 0;
+  /// Requires accepts(observation). Throws std::exception if the observation is damaged.
+  virtual SensorPoints extract(const mrpt::obs::CObservation& observation,
+                               const LabelRules& rules) const = 0;
+};
+
+/// Extractors for CObservationVelodyneScan, CObservationPointCloud, CObservation3DRangeScan,
+/// CObservationRotatingScan and CObservation2DRangeScan.
+std::vector<std::unique_ptr<PointExtractor>> makePointExtractors();
+
+}  // namespace csom
