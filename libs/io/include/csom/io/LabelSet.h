@@ -19,37 +19,47 @@ struct LabelClass {
   ClassId id = 0;
   std::string name;
   Color color{128, 128, 128};
+
+  friend bool operator==(const LabelClass& a, const LabelClass& b) {
+    return a.id == b.id && a.name == b.name && a.color == b.color;
+  }
 };
 
-/// A label set (config/labels/*.yaml). Class 0 is free; the ids run from 0 to K−1 without a gap.
+/// A label set (config/labels/*.yaml, described in docs/labels.md). Class 0 is free; the ids run
+/// from 0 to K−1 without a gap, 2 ≤ K ≤ 256; names and colours are unique.
 ///
 ///     name: semantickitti
 ///     classes:
-///       - {id: 0, name: free, color: [255, 255, 255]}
-///       - {id: 1, name: car, color: [245, 150, 100]}
-///     raw:            # raw id of the data set → class id or `ignore`; without this key raw ids are
+///       - {id: 0, name: free, color: [255, 255, 255], free: true}
+///       - {id: 1, name: car, color: [100, 150, 245]}
+///     raw:            # raw id of the data set → class id or `ignore`; without this key raw ids
+///     are
 ///       0: ignore     # class ids
 ///       10: 1
 class LabelSet {
  public:
-  /// What a raw id of a data set stands for.
+  /// What a raw id of a data set stands for. Ignored: the label set says that such points are not
+  /// to be used. Unknown: the label set does not know the id, which callers count and report.
   enum class RawKind { Class, Ignored, Unknown };
   struct Raw {
     RawKind kind = RawKind::Unknown;
     ClassId id = kFreeClass;
+
+    friend bool operator==(const Raw& a, const Raw& b) { return a.kind == b.kind && a.id == b.id; }
   };
 
   /// Free and occupied: the label set of a map that was given none.
   static LabelSet occupancy();
   /// Throws FileError naming the file and line.
   static LabelSet load(const std::string& file);
-  /// The inverse of toYaml(); `origin` names the text in errors.
+  /// The inverse of toYaml(); `origin` names the text in errors. Throws FileError.
   static LabelSet fromYaml(const std::string& text, const std::string& origin);
 
   /// The file of a label set given as a path or as a bare name ("semantickitti"): the path itself
   /// (relative to `base_folder`, then to the working folder), else NAME.yaml in the folders of
-  /// $CSOM_LABELS_PATH (separated by ':'), else in ../share/mrpt_csom/labels beside the folder of the program
-  /// or library that holds this code. Throws ConfigError that lists where it looked.
+  /// $CSOM_LABELS_PATH (separated by ':'), else in share/mrpt_csom/labels of the prefix that holds
+  /// this code (the folder of the library or program, or one of the two above it, + /share/…).
+  /// Throws ConfigError that lists where it looked.
   static std::string find(const std::string& name_or_path, const std::string& base_folder = "");
 
   const std::string& name() const { return name_; }
@@ -66,7 +76,16 @@ class LabelSet {
   /// Canonical text, complete and readable by fromYaml().
   std::string toYaml() const;
 
+  /// Same name, classes and mapping of raw ids.
+  friend bool operator==(const LabelSet& a, const LabelSet& b) {
+    return a.name_ == b.name_ && a.classes_ == b.classes_ && a.raw_ == b.raw_;
+  }
+  friend bool operator!=(const LabelSet& a, const LabelSet& b) { return !(a == b); }
+
  private:
+  friend class LabelSetReader;
+  LabelSet() = default;
+
   std::string name_;
   std::vector<LabelClass> classes_;
   std::map<std::uint32_t, Raw> raw_;  ///< empty: raw ids are class ids
