@@ -19,7 +19,7 @@ struct ClassFigures {
   Color color{};
   std::size_t voxels = 0;       ///< voxels whose most likely class this is
   double volume = 0;            ///< of these voxels [m³]
-  double share = 0;             ///< of all known voxels, 0 … 1
+  double share = 0;             ///< of all occupied voxels, 0 … 1; 0 for the free class
   double mean_probability = 0;  ///< of this class over its voxels; 0 if there is none
 };
 

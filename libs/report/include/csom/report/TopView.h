@@ -25,7 +25,7 @@ struct TopViewOptions {
 /// columns that are only free in light gray, unknown ones white. x points right and y up. With a
 /// metric scale bar, the axes and a legend of the classes that the picture shows. Returns the bytes
 /// of a PNG file; an empty map gives a picture that says so. Throws std::invalid_argument if
-/// max_pixels is below 64 or above 8192.
+/// max_pixels is below 64 or above 4096.
 std::vector<std::uint8_t> topViewPng(const MapDocument& document,
                                      const TopViewOptions& options = {});
 

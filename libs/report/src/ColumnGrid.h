@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A map seen from above, before it is drawn: one column of voxels a cell.
+#pragma once
+
+#include <csom/core/SemanticMap.h>
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <vector>
+
+namespace csom {
+
+/// What one sees looking down a column.
+struct Column {
+  VoxelState state = VoxelState::Unknown;
+  ClassId top_class = kFreeClass;  ///< if occupied
+  std::int32_t top = 0;            ///< z index of the topmost occupied voxel
+};
+
+/// A raster of columns: x to the right, row 0 at the highest y.
+class ColumnGrid {
+ public:
+  /// Which voxels of a map are seen.
+  struct Filter {
+    std::optional<double> highest_z;  ///< voxels with a higher centre are not [m]
+    std::set<ClassId> hidden;         ///< nor are those of these classes
+  };
+
+  /// Covers all seen voxels with at most `max_cells` cells a side; each cell then holds several
+  /// voxels a side.
+  ColumnGrid(const SemanticMap& map, const Filter& filter, int max_cells);
+
+  bool empty() const { return columns_.empty(); }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  /// Voxels along the edge of a cell.
+  int voxelsPerCell() const { return voxels_per_cell_; }
+  const Column& at(int column, int row) const {
+    return columns_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+                    static_cast<std::size_t>(column)];
+  }
+  const std::vector<Column>& columns() const { return columns_; }
+
+ private:
+  int width_ = 0;
+  int height_ = 0;
+  int voxels_per_cell_ = 1;
+  std::vector<Column> columns_;
+};
+
+}  // namespace csom

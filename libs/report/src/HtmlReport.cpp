@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The report page, section by section.
+#include <csom/report/HtmlReport.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+
+#include "Format.h"
+#include "Html.h"
+#include "ReportStyle.h"
+#include "TimingSummary.h"
+
+namespace csom {
+
+namespace {
+
+constexpr std::size_t kMostWarnings = 200;
+
+std::string fileName(const std::string& path) {
+  return path.substr(path.find_last_of('/') + 1);
+}
+
+std::string titleOf(const RunRecord& record) {
+  if (record.inputs.empty()) return "Semantic map";
+  std::string title = "Semantic map of " + fileName(record.inputs.front());
+  if (record.inputs.size() > 1)
+    title += " and " + formatCount(record.inputs.size() - 1, "more file");
+  return title;
+}
+
+std::string cssColor(const Color& color) {
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", color[0], color[1], color[2]);
+  return text;
+}
+
+std::string extentOf(const MapFigures& figures) {
+  const Eigen::Vector3d size = figures.bounds.sizes();
+  return formatNumber(size.x()) + " × " + formatNumber(size.y()) + " × " + formatNumber(size.z()) +
+         " m";
+}
+
+std::size_t refusedTotal(const RunRecord& record) {
+  std::size_t count = 0;
+  for (const RefusedObservations& refused : record.refused) count += refused.count;
+  return count;
+}
+
+/// What happened, in two or three sentences.
+void writeSummary(std::ostream& page, const RunRecord& record, const MapFigures& figures) {
+  const std::size_t points = totals(record).points;
+  page << "<p class=\"lead\">" << formatCount(record.scans.size(), "observation") << " with "
+       << formatCount(points, "point") << " went into the map in "
+       << formatDuration(record.wall_seconds) << ". ";
+  if (figures.known_voxels == 0) {
+    page << "The map is empty: no point was accepted. The section “What was left out” says why.";
+  } else {
+    page << "It covers " << extentOf(figures) << " with voxels of "
+         << formatLength(figures.resolution) << "; "
+         << formatCount(figures.occupied_voxels, "voxel") << " are occupied and "
+         << formatCount(figures.free_voxels) << " are known to be free.";
+  }
+  page << "</p>\n<p class=\"soft\">Poses: " << escapeHtml(record.pose_source)
+       << ". Label set: " << escapeHtml(record.label_set) << ". Made by csom "
+       << escapeHtml(record.program_version) << ".</p>\n";
+}
+
+void writeFigure(std::ostream& page, const std::string& name, const std::string& value) {
+  page << "<div><dt>" << name << "</dt><dd>" << value << "</dd></div>\n";
+}
+
+void writeFigures(std::ostream& page, const RunRecord& record, const MapFigures& figures) {
+  page << "<dl class=\"figures\">\n";
+  writeFigure(page, "Observations inserted", formatCount(record.scans.size()));
+  writeFigure(page, "Points", formatCount(totals(record).points));
+  writeFigure(page, "Points rejected", formatCount(totals(record).rejectedTotal()));
+  writeFigure(page, "Occupied voxels", formatCount(figures.occupied_voxels));
+  writeFigure(page, "Free voxels", formatCount(figures.free_voxels));
+  writeFigure(page, "Memory of the map", formatBytes(figures.memory_bytes));
+  page << "</dl>\n";
+}
+
+void writeTopView(std::ostream& page, const MapFigures& figures,
+                  const std::vector<std::uint8_t>& png) {
+  if (png.empty()) return;
+  page << "<h2>From above</h2>\n<figure><img alt=\"The map seen from above, coloured by class";
+  if (figures.known_voxels > 0) page << ", " << extentOf(figures);
+  page << ". The class table below gives the same in figures.\" src=\"data:image/png;base64,"
+       << encodeBase64(png) << "\">\n<figcaption>The topmost occupied voxel of each column; higher "
+       << "ones are lighter. Gray columns are known to be free, white ones were never "
+       << "seen.</figcaption></figure>\n";
+}
+
+void writeClassRow(std::ostream& page, const ClassFigures& c) {
+  page << "<tr><td>" << c.id
+       << "</td><td class=\"text\"><span class=\"swatch\" style=\"background:" << cssColor(c.color)
+       << "\"></span>" << escapeHtml(c.name) << "</td><td>" << formatCount(c.voxels) << "</td><td>"
+       << formatNumber(c.volume) << "</td><td>" << (c.id == kFreeClass ? "–" : formatShare(c.share))
+       << "</td><td>" << formatNumber(c.mean_probability) << "</td></tr>\n";
+}
+
+void writeClasses(std::ostream& page, const MapFigures& figures) {
+  std::vector<ClassFigures> present;
+  std::string absent;
+  for (const ClassFigures& c : figures.classes) {
+    if (c.voxels > 0)
+      present.push_back(c);
+    else
+      absent += (absent.empty() ? "" : ", ") + c.name;
+  }
+  std::stable_sort(present.begin(), present.end(),
+                   [](const auto& a, const auto& b) { return a.voxels > b.voxels; });
+  page << "<h2>Classes</h2>\n";
+  if (!present.empty()) {
+    page << "<div class=\"wide\"><table><thead><tr><th>id</th><th class=\"text\">class</th>"
+         << "<th>voxels</th><th>volume, m³</th><th>share of occupied</th><th>mean probability</th>"
+         << "</tr></thead><tbody>\n";
+    for (const ClassFigures& c : present) writeClassRow(page, c);
+    page << "</tbody></table></div>\n";
+  }
+  if (!absent.empty())
+    page << "<p class=\"soft\">Not in this map: " << escapeHtml(absent) << ".</p>\n";
+}
+
+void writeTiming(std::ostream& page, const RunRecord& record) {
+  const std::vector<StageTiming> stages = summarizeTiming(record.scans);
+  if (stages.empty()) return;
+  const double longest = std::max(stages.front().total, 1e-9);
+  page << "<h2>Time per observation</h2>\n<div class=\"wide\"><table><thead><tr>"
+       << "<th class=\"text\">stage</th><th>total</th><th class=\"text bar\">share</th>"
+       << "<th>min, ms</th><th>median, ms</th><th>95 %, ms</th><th>max, "
+          "ms</th></tr></thead><tbody>\n";
+  for (const StageTiming& stage : stages) {
+    const double share = std::clamp(stage.total / longest, 0.0, 1.0);
+    page << "<tr><td class=\"text\">" << stage.name << "</td><td>"
+         << formatDuration(stage.total / 1000)
+         << "</td><td class=\"bar\"><span style=\"width:" << static_cast<int>(share * 100 + 0.5)
+         << "%\"></span></td><td>" << formatNumber(stage.min) << "</td><td>"
+         << formatNumber(stage.median) << "</td><td>" << formatNumber(stage.p95) << "</td><td>"
+         << formatNumber(stage.max) << "</td></tr>\n";
+  }
+  page << "</tbody></table></div>\n";
+}
+
+const char* inWords(RejectReason reason) {
+  switch (reason) {
+    case RejectReason::NonFinite:
+      return "had coordinates that are not numbers or infinite";
+    case RejectReason::TooNear:
+      return "were nearer to the sensor than <code>min_range</code>";
+    case RejectReason::TooFar:
+      return "were farther from the sensor than <code>max_range</code>";
+    case RejectReason::ClassOutOfRange:
+      return "had a class id that the label set does not have";
+    case RejectReason::InvalidScores:
+      return "had class scores that do not sum to 1";
+    case RejectReason::OutsideIndexRange:
+      return "were too far from the map’s origin to be stored";
+  }
+  return "";
+}
+
+void writeRejects(std::ostream& page, const ScanReport& total) {
+  if (total.rejectedTotal() == 0) {
+    page << "<p>No point was rejected.</p>\n";
+    return;
+  }
+  page << "<p>" << formatCount(total.rejectedTotal(), "point") << " ("
+       << formatShare(static_cast<double>(total.rejectedTotal()) /
+                      static_cast<double>(std::max<std::size_t>(total.points, 1)))
+       << ") did not go into the map:</p>\n<ul>\n";
+  for (std::size_t i = 0; i < kRejectReasons; ++i)
+    if (total.rejected[i] > 0)
+      page << "<li>" << formatCount(total.rejected[i]) << " "
+           << inWords(static_cast<RejectReason>(i)) << "</li>\n";
+  page << "</ul>\n";
+}
+
+void writeRefused(std::ostream& page, const RunRecord& record) {
+  if (record.refused.empty()) {
+    page << "<p>Every observation was used.</p>\n";
+    return;
+  }
+  page << "<p>" << formatCount(refusedTotal(record), "observation") << " of "
+       << formatCount(record.observations_read) << " did not reach the map:</p>\n<ul>\n";
+  for (const RefusedObservations& refused : record.refused)
+    page << "<li>" << formatCount(refused.count) << " × <code>"
+         << escapeHtml(refused.observation_class) << "</code>: " << escapeHtml(refused.reason)
+         << "</li>\n";
+  page << "</ul>\n";
+}
+
+void writeWarnings(std::ostream& page, const std::vector<std::string>& warnings) {
+  if (warnings.empty()) {
+    page << "<p>There were no warnings.</p>\n";
+    return;
+  }
+  page << "<p>" << formatCount(warnings.size(), "warning") << ":</p>\n<ul class=\"warnings\">\n";
+  for (std::size_t i = 0; i < std::min(warnings.size(), kMostWarnings); ++i)
+    page << "<li>" << escapeHtml(warnings[i]) << "</li>\n";
+  page << "</ul>\n";
+  if (warnings.size() > kMostWarnings)
+    page << "<p>" << formatCount(warnings.size() - kMostWarnings)
+         << " more are in <code>run.json</code>.</p>\n";
+}
+
+void writeOrigin(std::ostream& page, const RunRecord& record, const MapFigures& figures) {
+  page << "<h2>How to make it again</h2>\n<pre>" << escapeHtml(record.command)
+       << "</pre>\n<p class=\"soft\">Configuration: "
+       << (record.config_file.empty() ? "the defaults" : escapeHtml(record.config_file))
+       << ". Digest of the map: <code>" << escapeHtml(figures.digest)
+       << "</code>; equal maps have equal digests.</p>\n";
+}
+
+void writeParameters(std::ostream& page, const std::vector<Parameter>& parameters) {
+  page << "<details><summary>All " << formatCount(parameters.size(), "parameter")
+       << "</summary>\n<div class=\"wide\"><table><thead><tr><th class=\"text\">name</th>"
+       << "<th class=\"text\">value</th><th class=\"text\">meaning</th></tr></thead><tbody>\n";
+  for (const Parameter& parameter : parameters)
+    page << "<tr><td class=\"text\"><code>" << escapeHtml(parameter.name)
+         << "</code></td><td class=\"text\">" << escapeHtml(toText(parameter)) << " "
+         << escapeHtml(parameter.unit) << "</td><td class=\"text\">" << escapeHtml(parameter.help)
+         << "</td></tr>\n";
+  page << "</tbody></table></div></details>\n";
+}
+
+}  // namespace
+
+std::string htmlReport(const RunRecord& record, const MapFigures& figures,
+                       const std::vector<std::uint8_t>& top_view) {
+  const std::string title = escapeHtml(titleOf(record));
+  std::ostringstream page;
+  page << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+       << "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+       // Should anything ever slip through the escaping, it still may not run or load.
+       << "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+       << "img-src data:; style-src 'unsafe-inline'\">\n"
+       << "<title>" << title << "</title>\n<style>" << kReportStyle << "</style>\n</head>\n<body>\n"
+       << "<h1>" << title << "</h1>\n";
+  writeSummary(page, record, figures);
+  writeFigures(page, record, figures);
+  writeTopView(page, figures, top_view);
+  writeClasses(page, figures);
+  writeTiming(page, record);
+  page << "<h2>What was left out</h2>\n";
+  writeRejects(page, totals(record));
+  writeRefused(page, record);
+  writeWarnings(page, record.warnings);
+  writeOrigin(page, record, figures);
+  writeParameters(page, record.parameters);
+  page << "</body>\n</html>\n";
+  return page.str();
+}
+
+}  // namespace csom

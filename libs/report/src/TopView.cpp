@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws a map from above: the raster of columns, a scale bar, the axes and a legend.
+#include <csom/report/TopView.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "Canvas.h"
+#include "ColumnGrid.h"
+#include "Format.h"
+
+namespace csom {
+
+namespace {
+
+constexpr int kMargin = 20;
+constexpr int kLegendLine = 22;
+constexpr int kFooterHeight = 64;
+constexpr int kSwatch = 14;
+constexpr std::size_t kMostLegendLines = 30;
+constexpr std::size_t kLongestName = 26;
+constexpr int kLargestVoxel = 24;
+// Room for the scale bar and the caption, however small the map.
+constexpr int kSmallestPanel = 300;
+
+constexpr Color kInk{40, 40, 40};
+constexpr Color kFrame{190, 190, 190};
+constexpr Color kFreeSpace{236, 236, 236};
+constexpr Color kUnknown{255, 255, 255};
+
+/// Colours and names, also of classes that the label set does not know.
+LabelClass classOf(const LabelSet& labels, ClassId k) {
+  if (k < labels.numberOfClasses()) return labels.at(k);
+  LabelClass unnamed;
+  unnamed.id = k;
+  unnamed.name = "class " + std::to_string(k);
+  return unnamed;
+}
+
+ColumnGrid::Filter filterOf(const LabelSet& labels, const TopViewOptions& options) {
+  ColumnGrid::Filter filter;
+  filter.highest_z = options.highest_z;
+  for (const std::string& name : options.hidden_classes)
+    if (const auto k = labels.classByName(name)) filter.hidden.insert(*k);
+  return filter;
+}
+
+/// Heights of the occupied columns without the outermost two percent.
+struct HeightRange {
+  double low = 0;
+  double high = 1;
+};
+
+HeightRange heightRange(const ColumnGrid& grid) {
+  std::vector<std::int32_t> tops;
+  for (const Column& column : grid.columns())
+    if (column.state == VoxelState::Occupied) tops.push_back(column.top);
+  if (tops.empty()) return {};
+  const auto at = [&](std::size_t rank) {
+    std::nth_element(tops.begin(), tops.begin() + static_cast<std::ptrdiff_t>(rank), tops.end());
+    return tops[rank];
+  };
+  const std::size_t last = tops.size() - 1;
+  const double low = at(last / 50);
+  return {low, std::max(low + 1, double(at(last - last / 50)))};
+}
+
+/// 1 = the class's own colour. Higher is lighter; faces towards the upper left catch light.
+double brightness(const ColumnGrid& grid, const HeightRange& range, int column, int row) {
+  const double top = grid.at(column, row).top;
+  const double height = std::clamp((top - range.low) / (range.high - range.low), 0.0, 1.0);
+  const auto rise = [&](int c, int r) {
+    if (c < 0 || r < 0 || grid.at(c, r).state != VoxelState::Occupied) return 0.0;
+    return top - grid.at(c, r).top;
+  };
+  const double slope = (rise(column - 1, row) + rise(column, row - 1)) / 2;
+  return 0.82 + 0.26 * height + 0.16 * std::tanh(slope / 4);
+}
+
+/// Darker below 1, towards white above.
+cv::Vec3b shade(const Color& color, double brightness) {
+  const auto channel = [&](std::size_t i) {
+    const double c = color[i];
+    const double shaded = brightness < 1 ? c * brightness : c + (255 - c) * (brightness - 1);
+    return static_cast<std::uint8_t>(std::lround(std::clamp(shaded, 0.0, 255.0)));
+  };
+  return {channel(2), channel(1), channel(0)};
+}
+
+cv::Mat paintCells(const ColumnGrid& grid, const LabelSet& labels) {
+  const HeightRange range = heightRange(grid);
+  cv::Mat cells(grid.height(), grid.width(), CV_8UC3);
+  for (int row = 0; row < grid.height(); ++row) {
+    for (int column = 0; column < grid.width(); ++column) {
+      const Column& cell = grid.at(column, row);
+      auto& pixel = cells.at<cv::Vec3b>(row, column);
+      if (cell.state == VoxelState::Occupied)
+        pixel = shade(classOf(labels, cell.top_class).color, brightness(grid, range, column, row));
+      else
+        pixel = shade(cell.state == VoxelState::Free ? kFreeSpace : kUnknown, 1.0);
+    }
+  }
+  return cells;
+}
+
+struct LegendEntry {
+  std::string name;
+  Color color;
+};
+
+std::string shorten(const std::string& name) {
+  return name.size() <= kLongestName ? name : name.substr(0, kLongestName - 3) + "...";
+}
+
+/// What the picture shows, the most frequent first.
+std::vector<LegendEntry> legendOf(const ColumnGrid& grid, const LabelSet& labels) {
+  std::map<ClassId, std::size_t> cells;
+  bool has_free = false;
+  for (const Column& column : grid.columns()) {
+    if (column.state == VoxelState::Occupied) ++cells[column.top_class];
+    has_free |= column.state == VoxelState::Free;
+  }
+  std::vector<std::pair<ClassId, std::size_t>> sorted(cells.begin(), cells.end());
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+
+  std::vector<LegendEntry> legend;
+  for (const auto& [k, count] : sorted) {
+    if (legend.size() == kMostLegendLines) break;
+    const LabelClass label = classOf(labels, k);
+    legend.push_back({shorten(label.name), label.color});
+  }
+  if (sorted.size() > legend.size())
+    legend.push_back({"and " + std::to_string(sorted.size() - legend.size()) + " more", kUnknown});
+  if (has_free) legend.push_back({"free space", kFreeSpace});
+  legend.push_back({"unknown", kUnknown});
+  return legend;
+}
+
+int legendWidth(const std::vector<LegendEntry>& legend) {
+  int width = 0;
+  for (const LegendEntry& entry : legend) width = std::max(width, Canvas::textWidth(entry.name));
+  return kSwatch + 8 + width;
+}
+
+void drawLegend(Canvas& canvas, const std::vector<LegendEntry>& legend, cv::Point corner) {
+  for (const LegendEntry& entry : legend) {
+    const cv::Rect swatch(corner, cv::Size(kSwatch, kSwatch));
+    canvas.rectangle(swatch, entry.color);
+    canvas.frame(swatch, kFrame);
+    canvas.text(entry.name, corner + cv::Point(kSwatch + 8, kSwatch - 2), kInk);
+    corner.y += kLegendLine;
+  }
+}
+
+/// 1, 2 or 5 times a power of ten, at most `longest`.
+double roundLength(double longest) {
+  const double power = std::pow(10.0, std::floor(std::log10(longest)));
+  for (const double factor : {5.0, 2.0})
+    if (factor * power <= longest) return factor * power;
+  return power;
+}
+
+void drawScaleBar(Canvas& canvas, cv::Point left, double metres_per_pixel) {
+  const double length = roundLength(kSmallestPanel / 2.0 * metres_per_pixel);
+  const cv::Point right = left + cv::Point(int(std::lround(length / metres_per_pixel)), 0);
+  const cv::Point tick(0, 5);
+  canvas.line(left, right, kInk);
+  canvas.line(left - tick, left + tick, kInk);
+  canvas.line(right - tick, right + tick, kInk);
+  canvas.text(formatLength(length), left + cv::Point(0, 24), kInk);
+}
+
+void drawAxes(Canvas& canvas, cv::Point origin) {
+  constexpr int kLength = 28;
+  canvas.arrow(origin, origin + cv::Point(kLength, 0), kInk);
+  canvas.arrow(origin, origin - cv::Point(0, kLength), kInk);
+  canvas.text("x", origin + cv::Point(kLength + 4, 4), kInk);
+  canvas.text("y", origin + cv::Point(6, -kLength + 6), kInk);
+}
+
+std::vector<std::uint8_t> emptyPicture(bool map_is_empty) {
+  const std::string message =
+      map_is_empty ? "The map is empty." : "Nothing of the map is below the cut.";
+  Canvas canvas(Canvas::textWidth(message) + 4 * kMargin, 6 * kMargin);
+  canvas.text(message, {2 * kMargin, 3 * kMargin + 5}, kInk);
+  return canvas.toPng();
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> topViewPng(const MapDocument& document, const TopViewOptions& options) {
+  if (options.max_pixels < 64 || options.max_pixels > 4096)
+    throw std::invalid_argument("max_pixels of a top view must be 64 … 4096, not " +
+                                std::to_string(options.max_pixels));
+  const ColumnGrid grid(document.map, filterOf(document.labels, options), options.max_pixels);
+  if (grid.empty()) return emptyPicture(document.map.empty());
+
+  const int cell_size =
+      std::clamp(options.max_pixels / std::max(grid.width(), grid.height()), 1, kLargestVoxel);
+  const cv::Size drawn(grid.width() * cell_size, grid.height() * cell_size);
+  const std::vector<LegendEntry> legend = legendOf(grid, document.labels);
+  const int legend_height = static_cast<int>(legend.size()) * kLegendLine;
+  const cv::Rect panel(kMargin, kMargin, std::max(drawn.width, kSmallestPanel),
+                       std::max({drawn.height, legend_height, kSmallestPanel / 2}));
+
+  Canvas canvas(panel.br().x + kMargin + legendWidth(legend) + kMargin,
+                panel.br().y + kFooterHeight + kMargin);
+  const cv::Point centering((panel.width - drawn.width) / 2, (panel.height - drawn.height) / 2);
+  canvas.image(paintCells(grid, document.labels), panel.tl() + centering, cell_size);
+  canvas.frame(panel, kFrame);
+  drawLegend(canvas, legend, {panel.br().x + kMargin, panel.y});
+  const double metres_per_pixel =
+      document.map.grid().resolution() * grid.voxelsPerCell() / cell_size;
+  drawScaleBar(canvas, {panel.x, panel.br().y + 30}, metres_per_pixel);
+  drawAxes(canvas, {panel.br().x - 60, panel.br().y + 50});
+  return canvas.toPng();
+}
+
+}  // namespace csom
