@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From logs to a map: what `csom map` does, without its files and its terminal.
+#pragma once
+
+#include <csom/maps/CSemanticContinuousMap.h>
+#include <csom/rawlog/PoseSource.h>
+#include <csom/rawlog/RawlogReader.h>
+#include <mrpt/maps/CSimpleMap.h>
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace csom {
+
+struct MappingRequest {
+  std::vector<std::string> logs;    ///< rawlogs and simplemaps, mapped one after another
+  std::string config_file;          ///< ini with a section [MappingApplication]
+  std::optional<PoseChoice> poses;  ///< nothing: the best that each log holds
+  std::optional<int> threads;       ///< overrides the option of the ini
+  bool keep_key_frames = false;     ///< fill MappingResult::key_frames, which holds all in memory
+};
+
+/// How far a run has come.
+struct MappingProgress {
+  const std::string& log;
+  std::size_t entries_done = 0;  ///< of all logs
+  std::size_t entries = 0;
+  std::size_t scans = 0;  ///< inserted so far
+};
+
+struct MappedLog {
+  std::string file;
+  RawlogEnd end;
+  PoseChoice poses;  ///< as taken
+};
+
+struct MappingResult {
+  CSemanticContinuousMap::Ptr map;
+  std::vector<MappedLog> logs;
+  std::vector<double> insert_ms;  ///< one for each of map->scans()
+  std::size_t observations_read = 0;
+  /// Observations that did not reach the map, by (class, reason).
+  std::map<std::pair<std::string, std::string>, std::size_t> refused;
+  std::vector<std::string> warnings;  ///< one line each
+  /// The observations that had a pose, with it: MRPT's observations2map makes the same map of it.
+  mrpt::maps::CSimpleMap key_frames;
+};
+
+/// Throws FileError for a log or file of poses that cannot be read, or a log that refers to an
+/// externalised file that is missing; ConfigError and OptionError for an ini that is wrong (unknown
+/// keys in our sections included); std::runtime_error if no observation could be used. A log that
+/// is cut off or damaged counts as far as it can be read, with a warning.
+MappingResult mapLogs(const MappingRequest& request,
+                      const std::function<void(const MappingProgress&)>& on_progress = {});
+
+}  // namespace csom

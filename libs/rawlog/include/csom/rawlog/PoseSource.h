@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the robot was when an observation was taken.
+#pragma once
+
+#include <csom/rawlog/PoseTrack.h>
+#include <csom/rawlog/RawlogReader.h>
+#include <csom/rawlog/RawlogSurvey.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace csom {
+
+/// What `--poses` asks for.
+struct PoseChoice {
+  enum class Kind {
+    Odometry,   ///< actions of the log if it has any, else its CObservationOdometry
+    RobotPose,  ///< CObservationRobotPose of one sensor label
+    Tum,        ///< file: `timestamp x y z qx qy qz qw` a line
+    Kitti,      ///< file: 3×4 row-major matrix a line, one line a scan
+    SimpleMap,  ///< key frames of a simplemap file, by their observations' time stamps
+    KeyFrames   ///< the log is a simplemap: its own poses
+  };
+  Kind kind = Kind::Odometry;
+  std::string argument;  ///< sensor label (may be empty) or file
+
+  /// `odometry`, `robot-pose[:LABEL]`, `tum:FILE`, `kitti:FILE`, `simplemap:FILE`. Throws
+  /// ConfigError.
+  static PoseChoice parse(const std::string& text);
+  /// The inverse of parse(); "key-frames" for KeyFrames.
+  std::string toString() const;
+};
+
+/// Poses of the robot (not of the sensor) in the map frame, for the observations of one log.
+/// In order of preference if nothing is chosen: robot poses of the log, its odometry, its key
+/// frames.
+class PoseSource {
+ public:
+  /// Throws ConfigError if the log has no such poses (or several labels of them and none is
+  /// chosen), FileError for a file of poses that is wrong.
+  PoseSource(const std::optional<PoseChoice>& choice, const RawlogSurvey& survey);
+
+  const PoseChoice& choice() const { return choice_; }
+
+  /// To be called with every entry of the log, in order, before poseOf() its observations.
+  void advance(const RawlogEntry& entry);
+
+  /// Nothing if there is no pose for this observation: it lies outside the time span of the poses,
+  /// has no time stamp, or comes after the last line of a KITTI file. Poses in time are
+  /// interpolated (positions linearly, rotations by SLERP); a pose of exactly the time of the
+  /// observation, or in its sensory frame, is taken as it is. With a KITTI file the n-th
+  /// observation of every sensor label has the n-th pose: call once for each observation.
+  std::optional<mrpt::poses::CPose3D> poseOf(const RawlogEntry& entry,
+                                             const mrpt::obs::CObservation& observation);
+
+ private:
+  static PoseChoice defaultChoice(const RawlogSurvey& survey);
+  void useLog(const RawlogSurvey& survey);
+  void useFile();
+
+  PoseChoice choice_;
+  PoseTrack track_;
+  bool integrates_actions_ = false;
+  mrpt::poses::CPose3D integrated_;
+  std::vector<mrpt::poses::CPose3D> by_index_;
+  std::map<std::string, std::size_t> next_index_;
+};
+
+}  // namespace csom

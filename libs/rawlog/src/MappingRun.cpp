@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From logs to a map: what `csom map` does, without its files and its terminal.
+#include <csom/core/Error.h>
+#include <csom/rawlog/MappingRun.h>
+#include <csom/rawlog/RawlogSurvey.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include <chrono>
+#include <stdexcept>
+
+#include "MrptText.h"
+
+namespace csom {
+namespace {
+
+using mrpt::poses::CPose3D;
+
+std::string counted(std::size_t count, const std::string& things) {
+  return std::to_string(count) + " " + things;
+}
+
+CSemanticContinuousMap::Ptr emptyMap(const MappingRequest& request) {
+  auto definition = CSemanticContinuousMap::definitionFromIni(request.config_file);
+  if (const auto unknown = definition.unknownKeys(); !unknown.empty()) {
+    std::string rest;
+    if (unknown.size() > 1) rest = " (and " + std::to_string(unknown.size() - 1) + " more)";
+    throw ConfigError(unknown.front() + ": no such key" + rest +
+                      "; docs/ini-reference.md lists all");
+  }
+  if (request.threads) definition.options.threads = *request.threads;
+  return std::make_shared<CSemanticContinuousMap>(definition);
+}
+
+/// One run: logs in, MappingResult out.
+class MappingRun {
+ public:
+  MappingRun(const MappingRequest& request,
+             const std::function<void(const MappingProgress&)>& on_progress)
+      : request_(request), on_progress_(on_progress) {}
+
+  MappingResult run() {
+    result_.map = emptyMap(request_);
+    // All that can be wrong with the input is found out before the long part starts.
+    std::vector<PoseSource> poses;
+    std::vector<RawlogSurvey> surveys;
+    for (const std::string& log : request_.logs) {
+      surveys.push_back(survey(log));
+      poses.emplace_back(request_.poses, surveys.back());
+      entries_ += surveys.back().end.entries;
+    }
+    for (std::size_t i = 0; i < surveys.size(); ++i) {
+      result_.logs.push_back({surveys[i].file, surveys[i].end, poses[i].choice()});
+      mapLog(surveys[i], poses[i]);
+    }
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  RawlogSurvey survey(const std::string& log);
+  void mapLog(const RawlogSurvey& survey, PoseSource& poses);
+  void mapEntry(const RawlogEntry& entry, PoseSource& poses);
+  void insert(const mrpt::obs::CObservation& observation, const CPose3D& pose);
+  void keep(const mrpt::obs::CObservation::Ptr& observation, const CPose3D& pose);
+  void refuse(const mrpt::obs::CObservation& observation, const std::string& reason) {
+    ++result_.refused[{observation.GetRuntimeClass()->className, reason}];
+  }
+  void warn(const std::string& text) { result_.warnings.push_back(text); }
+  void warnAboutPoints();
+  void finish();
+  std::string whyEmpty() const;
+
+  const MappingRequest& request_;
+  const std::function<void(const MappingProgress&)>& on_progress_;
+  MappingResult result_;
+  std::size_t entries_ = 0;
+  std::size_t entries_done_ = 0;
+  /// Key frame that the entry at hand has opened, to which observations of the same pose are added.
+  mrpt::obs::CSensoryFrame::Ptr open_frame_;
+  CPose3D open_frame_pose_;
+};
+
+RawlogSurvey MappingRun::survey(const std::string& log) {
+  RawlogSurvey found = surveyRawlog(log);
+  if (found.missing_files > 0)
+    throw FileError(log, found.first_missing + " is missing (" +
+                             counted(found.missing_files, "such files") +
+                             "); put it there, or remove these observations with rawlog-edit "
+                             "--remove-label");
+  if (!found.end.complete)
+    warn(log + ": " + found.end.reason + "; mapped what it holds before, " +
+         counted(found.end.entries, "entries") + " in " + counted(found.end.bytes, "bytes"));
+  if (found.invalid_poses > 0)
+    warn(log + ": left out " + counted(found.invalid_poses, "poses") +
+         " that are not finite or have no time stamp");
+  if (request_.keep_key_frames && found.external_files > 0)
+    warn(log +
+         ": its images are files of their own; the simplemap refers to them and finds them "
+         "only if they are in a folder Images beside it");
+  return found;
+}
+
+void MappingRun::mapLog(const RawlogSurvey& survey, PoseSource& poses) {
+  RawlogReader reader(survey.file);
+  while (const auto entry = reader.next()) {
+    poses.advance(*entry);
+    mapEntry(*entry, poses);
+    ++entries_done_;
+    if (on_progress_)
+      on_progress_({survey.file, entries_done_, entries_, result_.map->scans().size()});
+  }
+}
+
+void MappingRun::mapEntry(const RawlogEntry& entry, PoseSource& poses) {
+  open_frame_.reset();
+  for (const auto& observation : entry.observations) {
+    ++result_.observations_read;
+    const auto pose = poses.poseOf(entry, *observation);
+    if (!pose) {
+      refuse(*observation, "no pose at its time");
+      continue;
+    }
+    insert(*observation, *pose);
+    if (request_.keep_key_frames) keep(observation, *pose);
+  }
+}
+
+void MappingRun::insert(const mrpt::obs::CObservation& observation, const CPose3D& pose) {
+  CSemanticContinuousMap& map = *result_.map;
+  const std::string class_name = observation.GetRuntimeClass()->className;
+  const auto damagedSoFar = [&] {
+    const auto found = map.statistics().damaged.find(class_name);
+    return found == map.statistics().damaged.end() ? std::size_t{0} : found->second;
+  };
+  const std::size_t damaged_before = damagedSoFar();
+  const std::size_t scans_before = map.scans().size();
+  const auto start = std::chrono::steady_clock::now();
+  bool taken = false;
+  std::string fault;
+  try {
+    taken = map.insertObservation(observation, pose);
+  } catch (const std::exception& error) {
+    fault = detail::oneLine(error);
+  }
+  const std::chrono::duration<double, std::milli> elapsed =
+      std::chrono::steady_clock::now() - start;
+
+  const std::size_t added = map.scans().size() - scans_before;
+  for (std::size_t i = 0; i < added; ++i)
+    result_.insert_ms.push_back(elapsed.count() / static_cast<double>(added));
+  if (added > 0 || taken) return;
+  if (damagedSoFar() > damaged_before) fault = map.statistics().why_damaged.at(class_name);
+  refuse(observation,
+         fault.empty() ? "carries no points that this map takes" : "damaged: " + fault);
+}
+
+void MappingRun::keep(const mrpt::obs::CObservation::Ptr& observation, const CPose3D& pose) {
+  if (!open_frame_ || !(open_frame_pose_ == pose)) {
+    open_frame_ = std::make_shared<mrpt::obs::CSensoryFrame>();
+    open_frame_pose_ = pose;
+    const mrpt::poses::CPose3DPDF::Ptr exact =
+        std::make_shared<mrpt::poses::CPose3DPDFGaussian>(pose);
+    result_.key_frames.insert(exact, open_frame_);
+  }
+  open_frame_->insert(observation);
+}
+
+void MappingRun::warnAboutPoints() {
+  const InsertionStatistics& statistics = result_.map->statistics();
+  ScanReport sum;
+  for (const ScanRecord& scan : result_.map->scans()) sum += scan.report;
+  for (std::size_t i = 0; i < kRejectReasons; ++i) {
+    const auto reason = static_cast<RejectReason>(i);
+    // A range limit is a wish of the user's, not a fault of the data.
+    if (reason == RejectReason::TooNear || reason == RejectReason::TooFar) continue;
+    if (sum.rejected[i] > 0)
+      warn("rejected " + counted(sum.rejected[i], "points: ") + toString(reason));
+  }
+  const std::string set = "'" + result_.map->labels().name() + "'";
+  const LabelCounts& labels = statistics.labels;
+  if (labels.unknown > 0)
+    warn("left out " + counted(labels.unknown, "points whose label is not in the label set ") +
+         set);
+  if (labels.ambiguous > 0)
+    warn("left out " + counted(labels.ambiguous, "points with several labels"));
+  if (labels.missing > 0) warn("left out " + counted(labels.missing, "points without a label"));
+}
+
+void MappingRun::finish() {
+  warnAboutPoints();
+  for (const auto& [what, count] : result_.refused) {
+    if (what.second.rfind("carries no points", 0) == 0) continue;
+    warn("refused " + counted(count, what.first) + ": " + what.second);
+  }
+  if (result_.map->isEmpty()) throw std::runtime_error(whyEmpty());
+}
+
+std::string MappingRun::whyEmpty() const {
+  std::string text = request_.logs.front();
+  if (request_.logs.size() > 1)
+    text += " and " + std::to_string(request_.logs.size() - 1) + " more";
+  text += ": no observation could be used";
+  if (result_.observations_read == 0) text += "; it holds none";
+  for (const auto& [what, count] : result_.refused)
+    text += "; " + counted(count, what.first) + ": " + what.second;
+  for (const std::string& warning : result_.warnings) {
+    if (warning.rfind("refused ", 0) != 0) text += "; " + warning;
+  }
+  return text;
+}
+
+}  // namespace
+
+MappingResult mapLogs(const MappingRequest& request,
+                      const std::function<void(const MappingProgress&)>& on_progress) {
+  return MappingRun(request, on_progress).run();
+}
+
+}  // namespace csom

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// MRPT's words as one line of ours.
+#pragma once
+
+#include <mrpt/core/Clock.h>
+
+#include <exception>
+#include <optional>
+#include <string>
+
+namespace csom::detail {
+
+/// The innermost message of an MRPT exception, whose what() is many lines with a call stack.
+std::string oneLine(const std::exception& error);
+
+/// Seconds since 1970; nothing for MRPT's invalid time stamp.
+std::optional<double> secondsOf(const mrpt::Clock::time_point& timestamp);
+
+}  // namespace csom::detail

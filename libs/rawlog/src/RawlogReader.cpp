@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads a rawlog or a simplemap one entry at a time.
+#include <csom/core/Error.h>
+#include <csom/rawlog/RawlogReader.h>
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/io/lazy_load_path.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CRawlog.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DPDF.h>
+#include <mrpt/poses/CPosePDF.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+#include "MemoryLimit.h"
+#include "MrptText.h"
+
+namespace csom {
+
+using mrpt::serialization::CSerializable;
+
+namespace {
+
+using mrpt::rtti::TRuntimeClassId;
+
+constexpr char kNoRawlog[] = "is neither a rawlog nor a simplemap";
+
+/// Why a file cannot even be opened; empty if it can.
+std::string whyUnreadable(const std::string& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) return "no such file";
+  if (std::filesystem::is_directory(status)) return "is a folder, not a rawlog";
+  if (!std::filesystem::is_regular_file(status)) return "is not a regular file";
+  if (std::filesystem::file_size(file, error) == 0) return "is empty";
+  return {};
+}
+
+/// MRPT's convention, also for names that end in .gz or contain dots.
+std::string imageFolderOf(const std::string& file) {
+  const std::filesystem::path path(file);
+  const std::filesystem::path folder = path.parent_path();
+  std::string stem = path.filename().string();
+  for (const char* extension : {".gz", ".rawlog", ".simplemap"}) {
+    const std::string end = extension;
+    if (stem.size() > end.size() && stem.compare(stem.size() - end.size(), end.size(), end) == 0)
+      stem.resize(stem.size() - end.size());
+  }
+  for (const char* suffix : {"_Images", "_images", "_IMAGES"}) {
+    if (std::filesystem::is_directory(folder / (stem + suffix)))
+      return (folder / (stem + suffix)).string();
+  }
+  return (folder / "Images").string();
+}
+
+bool isLogClass(const TRuntimeClassId& id) {
+  return id.derivedFrom(CLASS_ID(mrpt::obs::CObservation)) ||
+         &id == CLASS_ID(mrpt::obs::CSensoryFrame) || &id == CLASS_ID(mrpt::obs::CActionCollection);
+}
+
+}  // namespace
+
+/// MRPT's own archive takes a short read for a full one; this one does not.
+class RawlogReader::Archive : public mrpt::serialization::CArchive {
+ public:
+  struct Header {
+    std::string class_name;
+    bool old_format = false;
+    std::int8_t version = 0;
+    /// Null for a stored null pointer and for a class that is not registered.
+    const TRuntimeClassId* class_id = nullptr;
+    bool isNull() const { return class_name == "nullptr"; }
+  };
+
+  explicit Archive(const std::string& file) { open_ = stream_.open(file); }
+
+  bool isOpen() const { return open_; }
+  bool cutOff() const { return cut_off_; }
+  std::uint64_t position() const { return position_; }
+  /// Class of the object being read, for messages.
+  const std::string& currentClass() const { return current_.class_name; }
+
+  /// True if not one byte is left.
+  bool atEnd() {
+    if (!peeked_) peeked_ = stream_.Read(&peeked_byte_, 1) == 1;
+    return !peeked_;
+  }
+
+  const Header& readHeader() {
+    current_ = {};
+    internal_ReadObjectHeader(current_.class_name, current_.old_format, current_.version);
+    if (!current_.isNull())
+      current_.class_id = mrpt::rtti::findRegisteredClass(current_.class_name);
+    return current_;
+  }
+
+  /// The object whose header was read last.
+  CSerializable::Ptr readBody() {
+    CSerializable::Ptr object;
+    if (!current_.isNull()) {
+      if (current_.class_id == nullptr)
+        throw std::runtime_error("its class is not known to this version of MRPT");
+      object = std::dynamic_pointer_cast<CSerializable>(current_.class_id->createObject());
+      if (!object) throw std::runtime_error("its class cannot be stored in a file");
+    }
+    internal_ReadObject(object.get(), current_.class_name, current_.old_format, current_.version);
+    return object;
+  }
+
+  CSerializable::Ptr readWhole() {
+    readHeader();
+    return readBody();
+  }
+
+ protected:
+  std::size_t read(void* buffer, std::size_t size) override {
+    auto* bytes = static_cast<std::uint8_t*>(buffer);
+    std::size_t missing = size;
+    if (peeked_ && missing > 0) {
+      *bytes++ = peeked_byte_;
+      --missing;
+      peeked_ = false;
+    }
+    if (missing > 0 && stream_.Read(bytes, missing) != missing) {
+      cut_off_ = true;
+      throw std::runtime_error("the file ends here");
+    }
+    position_ += size;
+    return size;
+  }
+  std::size_t write(const void*, std::size_t) override {
+    throw std::logic_error("a rawlog is only read");
+  }
+
+ private:
+  mrpt::io::CFileGZInputStream stream_;
+  bool open_ = false;
+  bool cut_off_ = false;
+  bool peeked_ = false;
+  std::uint8_t peeked_byte_ = 0;
+  std::uint64_t position_ = 0;
+  Header current_;
+};
+
+RawlogReader::RawlogReader(const std::string& file)
+    : file_(file), image_folder_(imageFolderOf(file)) {
+  if (const std::string reason = whyUnreadable(file); !reason.empty())
+    throw FileError(file, reason);
+  archive_ = std::make_unique<Archive>(file);
+  if (!archive_->isOpen()) throw FileError(file, "cannot be opened for reading");
+  mrpt::io::setLazyLoadPathBase(image_folder_);
+  readStart();
+}
+
+RawlogReader::~RawlogReader() = default;
+
+bool RawlogReader::isSimpleMap() const {
+  return simplemap_version_ >= 0;
+}
+
+void RawlogReader::readStart() {
+  const detail::MemoryLimit limit;
+  if (archive_->atEnd()) throw FileError(file_, "is empty");
+  Archive::Header header;
+  try {
+    header = archive_->readHeader();
+  } catch (const std::exception&) {
+    throw FileError(file_, kNoRawlog);
+  }
+  if (header.class_id == nullptr) throw FileError(file_, kNoRawlog);
+
+  const bool is_simplemap = header.class_id == CLASS_ID(mrpt::maps::CSimpleMap);
+  if (is_simplemap || header.class_id == CLASS_ID(mrpt::obs::CRawlog)) {
+    if (is_simplemap) simplemap_version_ = header.version;
+    if (simplemap_version_ > 1)
+      throw FileError(file_, "is a simplemap of format " + std::to_string(simplemap_version_) +
+                                 ", later than this version of MRPT reads");
+    try {
+      remaining_ = archive_->ReadAs<std::uint32_t>();
+    } catch (const std::exception&) {
+      stopAt("the file ends before its first entry");
+    }
+    return;
+  }
+  if (!isLogClass(*header.class_id))
+    throw FileError(file_, std::string(kNoRawlog) + ": it starts with a " + header.class_name);
+  try {
+    RawlogEntry entry;
+    accept(archive_->readBody(), entry);
+    first_ = std::move(entry);
+  } catch (const std::exception& error) {
+    stopAt(detail::oneLine(error));
+  }
+}
+
+std::optional<RawlogEntry> RawlogReader::next() {
+  if (stopped_) return std::nullopt;
+  RawlogEntry entry;
+  if (first_) {
+    entry = std::move(*first_);
+    first_.reset();
+  } else {
+    try {
+      const detail::MemoryLimit limit;
+      if (!readEntry(entry)) {
+        stopped_ = true;
+        return std::nullopt;
+      }
+    } catch (const std::bad_alloc&) {
+      stopAt("it asks for more memory than there is");
+      return std::nullopt;
+    } catch (const std::exception& error) {
+      stopAt(detail::oneLine(error));
+      return std::nullopt;
+    }
+  }
+  entry.index = end_.entries++;
+  end_.bytes = archive_->position();
+  return entry;
+}
+
+/// False at the regular end.
+bool RawlogReader::readEntry(RawlogEntry& entry) {
+  if (remaining_) {
+    if (*remaining_ == 0) return false;
+    --*remaining_;
+  } else if (archive_->atEnd()) {
+    return false;
+  }
+  if (!isSimpleMap()) {
+    accept(archive_->readWhole(), entry);
+    return true;
+  }
+  const CSerializable::Ptr pose = archive_->readWhole();
+  if (const auto in_3d = std::dynamic_pointer_cast<mrpt::poses::CPose3DPDF>(pose))
+    entry.key_frame_pose = in_3d->getMeanVal();
+  else if (const auto in_2d = std::dynamic_pointer_cast<mrpt::poses::CPosePDF>(pose))
+    entry.key_frame_pose = mrpt::poses::CPose3D(in_2d->getMeanVal());
+  else
+    throw std::runtime_error("a key frame without a pose");
+  if (!accept(archive_->readWhole(), entry))
+    throw std::runtime_error("a key frame without observations");
+  return true;
+}
+
+/// Logs may hold objects of any class; those that say nothing about the world are passed over.
+bool RawlogReader::accept(const CSerializable::Ptr& object, RawlogEntry& entry) const {
+  if (std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object)) return false;
+  if (const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object)) {
+    entry.observations.push_back(observation);
+    return true;
+  }
+  if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object)) {
+    for (const auto& observation : *frame) {
+      if (observation) entry.observations.push_back(observation);
+    }
+    return true;
+  }
+  entry.action = std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object);
+  return entry.action != nullptr;
+}
+
+void RawlogReader::stopAt(const std::string& reason) {
+  stopped_ = true;
+  end_.complete = false;
+  const std::string where =
+      "entry " + std::to_string(end_.entries) +
+      (archive_->currentClass().empty() ? "" : " (" + archive_->currentClass() + ")");
+  end_.reason =
+      archive_->cutOff() ? "cut off in the middle of " + where : where + " is damaged: " + reason;
+}
+
+}  // namespace csom
