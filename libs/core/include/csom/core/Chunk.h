@@ -118,6 +118,7 @@ class ChunkRef {
   bool addInPlace(const std::vector<CountIncrement>& increments);
 
  private:
+  friend class Chunk;
   void acquire() const {
     if (chunk_ != nullptr) chunk_->references_.fetch_add(1, std::memory_order_relaxed);
   }

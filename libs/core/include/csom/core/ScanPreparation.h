@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a raw scan to training points in blocks: reject, down-sample, sample free space, bin.
+#pragma once
+
+#include <csom/core/Grid.h>
+#include <csom/core/Options.h>
+#include <csom/core/ScanReport.h>
+#include <csom/core/types.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace csom {
+
+/// A training point, in metres relative to the lower corner of its block: a float then holds it to
+/// a fraction of a micrometre, however far the scan reaches and wherever it lies in the map.
+struct TrainingPoint {
+  float x, y, z;
+  ClassId label;  ///< of a hard scan; 0 in a soft one
+};
+
+/// A scan ready for inference. Points are grouped by block: those of blocks[b] are
+/// points[block_begin[b]] … points[block_begin[b+1]−1].
+struct PreparedScan {
+  int block_depth = 2;                ///< D_b of `blocks`; 1 for s-csm, whose block is the voxel
+  std::vector<TrainingPoint> points;  ///< hits, then free samples, of each block
+  std::vector<float> scores;          ///< soft scans: points × K, row-major; else empty
+  std::vector<BlockIndex> blocks;     ///< the observed blocks, ascending (z-major)
+  std::vector<std::uint32_t> block_begin;  ///< blocks.size() + 1 offsets into `points`
+
+  /// What ray casting needs; filled for FreeSpace::Raycast only.
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< sensor in the map frame [m]
+  std::vector<Eigen::Vector3d> beam_ends;            ///< down-sampled hits in the map frame [m]
+  std::vector<VoxelIndex> hit_voxels;  ///< voxels of every accepted point, with repeats
+};
+
+/// Steps 0 to 3 of docs/algorithm.md. Bad points are counted in `report`, never thrown for; throws
+/// std::invalid_argument if labels or scores do not match the points.
+///
+/// A scan may reach 2^20 voxels (and down-sampling cells) from its origin along each axis; points
+/// beyond are rejected as OutsideIndexRange.
+PreparedScan prepareScan(const Scan& scan, const Options& options, ScanReport& report);
+
+}  // namespace csom

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <csom/core/FreeSpaceRays.h>
+#include <csom/core/KernelInference.h>
+#include <csom/core/ScanPreparation.h>
+#include <csom/core/SemanticMap.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "VoxelTraversal.h"
+
+namespace csom {
+
+namespace {
+
+/// Milliseconds since the last call.
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double, std::milli> elapsed = now - last_;
+    last_ = now;
+    return elapsed.count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// Squared distance from a point to a chunk's nearest voxel centre, or less.
+double squaredDistanceToChunk(const Grid& grid, const ChunkIndex& chunk,
+                              const Eigen::Vector3d& point) {
+  const Eigen::Vector3d lower = grid.lowerCorner(voxelOfChunk(chunk, 0));
+  const Eigen::Vector3d upper = lower.array() + kChunkSide * grid.resolution();
+  return (point - point.cwiseMax(lower).cwiseMin(upper)).squaredNorm();
+}
+
+}  // namespace
+
+SemanticMap::SemanticMap(const Options& options) : options_(options), grid_(options.resolution) {
+  options_.validate();
+}
+
+ScanReport SemanticMap::insert(const Scan& scan) {
+  ScanReport report;
+  Stopwatch watch;
+  const PreparedScan prepared = prepareScan(scan, options_, report);
+  report.prepare_ms = watch.lap();
+  const ScanIncrements kernel_mass = inferIncrements(prepared, options_, report);
+  const ScanIncrements free_space = castFreeSpace(prepared, options_, report);
+  report.infer_ms = watch.lap();
+  store_.add(kernel_mass, options_.threads);
+  store_.add(free_space, options_.threads);
+  report.commit_ms = watch.lap();
+  return report;
+}
+
+void SemanticMap::merge(const SemanticMap& other) {
+  if (!mergeable(options_, other.options_)) {
+    const auto describe = [](const Options& o) {
+      return "resolution " + toString(o.resolution) + ", " + toString(o.number_of_classes) +
+             " classes, prior " + toString(o.prior);
+    };
+    throw std::invalid_argument("maps differ and cannot be merged: " + describe(options_) +
+                                " against " + describe(other.options_));
+  }
+  store_.add(other.store_);
+}
+
+void SemanticMap::clear() {
+  store_.clear();
+}
+
+DirichletVoxel SemanticMap::view(const Chunk* chunk, int index_in_chunk) const {
+  if (chunk == nullptr) return {options_.number_of_classes, options_.prior};
+  const Chunk::Entries entries = chunk->at(index_in_chunk);
+  return {options_.number_of_classes, options_.prior, entries.classes, entries.counts,
+          entries.size};
+}
+
+DirichletVoxel SemanticMap::voxel(const VoxelIndex& index) const {
+  const auto addressable = [](std::int32_t i) {
+    return i >= -kMaxVoxelIndex - 1 && i <= kMaxVoxelIndex;
+  };
+  const bool inside = addressable(index.x) && addressable(index.y) && addressable(index.z);
+  return view(inside ? store_.find(chunkOf(index)) : nullptr, indexInChunk(index));
+}
+
+DirichletVoxel SemanticMap::at(const Eigen::Vector3d& point) const {
+  return grid_.contains(point) ? voxel(grid_.voxelAt(point)) : view(nullptr, 0);
+}
+
+std::optional<RayHit> SemanticMap::castRay(const Eigen::Vector3d& origin,
+                                           const Eigen::Vector3d& direction, double max_range,
+                                           bool stop_at_unknown) const {
+  const double norm = direction.norm();
+  if (!grid_.contains(origin) || !(norm > 0) || !std::isfinite(norm) || !(max_range > 0))
+    return std::nullopt;
+  const Eigen::Vector3d unit = direction / norm;
+  const double limit = grid_.resolution() * (kMaxVoxelIndex - 1);
+  double range = max_range;
+  for (int axis = 0; axis < 3; ++axis) {  // end where indices end
+    if (unit[axis] > 0) range = std::min(range, (limit - origin[axis]) / unit[axis]);
+    if (unit[axis] < 0) range = std::min(range, (-limit - origin[axis]) / unit[axis]);
+  }
+  if (!(range > 0)) return std::nullopt;
+
+  std::optional<RayHit> hit;
+  ChunkIndex cached_index;
+  const Chunk* cached = nullptr;
+  bool first = true;
+  detail::traverseVoxels(grid_, origin, origin + range * unit,
+                         [&](const VoxelIndex& index, double entered) {
+                           if (first || chunkOf(index) != cached_index) {
+                             first = false;
+                             cached_index = chunkOf(index);
+                             cached = store_.find(cached_index);
+                           }
+                           const DirichletVoxel here = view(cached, indexInChunk(index));
+                           const VoxelState state = here.state();
+                           if (state == VoxelState::Occupied) {
+                             hit = RayHit{index, origin + entered * range * unit, entered * range,
+                                          here.mostLikelyClass()};
+                             return false;
+                           }
+                           return !(stop_at_unknown && state == VoxelState::Unknown);
+                         });
+  return hit;
+}
+
+std::optional<Neighbour> SemanticMap::nearestOccupied(const Eigen::Vector3d& point,
+                                                      double max_distance,
+                                                      std::optional<ClassId> only_class) const {
+  if (!grid_.contains(point) || !(max_distance >= 0)) return std::nullopt;
+  double best_squared = max_distance * max_distance;
+  std::optional<Neighbour> best;
+  const auto consider = [&](const ChunkIndex& index, const Chunk& chunk) {
+    if (squaredDistanceToChunk(grid_, index, point) > best_squared) return;
+    chunk.forEachKnown([&](int in_chunk) {
+      const VoxelIndex candidate = voxelOfChunk(index, in_chunk);
+      const double squared = (grid_.center(candidate) - point).squaredNorm();
+      if (squared > best_squared || (best && squared == best_squared && best->voxel < candidate))
+        return;
+      const DirichletVoxel v = view(&chunk, in_chunk);
+      if (v.state() != VoxelState::Occupied || (only_class && v.mostLikelyClass() != *only_class))
+        return;
+      best_squared = squared;
+      best = Neighbour{candidate, std::sqrt(squared), v.mostLikelyClass()};
+    });
+  };
+
+  // Shells of chunks around the point's own, until the next shell is farther than the best found;
+  // all chunks at once where that is less work.
+  const double chunk_edge = kChunkSide * grid_.resolution();
+  const double shells = std::ceil(max_distance / chunk_edge) + 1;
+  if (std::pow(2 * shells + 1, 3) > static_cast<double>(store_.chunkCount())) {
+    store_.forEach(consider);
+    return best;
+  }
+  const ChunkIndex center = chunkOf(grid_.voxelAt(point));
+  const auto last_shell = static_cast<std::int32_t>(shells);
+  for (std::int32_t shell = 0; shell <= last_shell; ++shell) {
+    const double nearest = (shell - 1) * chunk_edge;
+    if (nearest > 0 && nearest * nearest > best_squared) break;
+    for (std::int32_t z = -shell; z <= shell; ++z)
+      for (std::int32_t y = -shell; y <= shell; ++y) {
+        const bool face = std::abs(z) == shell || std::abs(y) == shell;
+        for (std::int32_t x = -shell; x <= shell; x += face || shell == 0 ? 1 : 2 * shell) {
+          const ChunkIndex index{center.x + x, center.y + y, center.z + z};
+          if (const Chunk* chunk = store_.find(index)) consider(index, *chunk);
+        }
+      }
+  }
+  return best;
+}
+
+std::optional<VoxelBox> SemanticMap::boundingBox() const {
+  std::optional<VoxelBox> box;
+  store_.forEach([&](const ChunkIndex& index, const Chunk& chunk) {
+    chunk.forEachKnown([&](int in_chunk) {
+      const VoxelIndex v = voxelOfChunk(index, in_chunk);
+      if (!box) box = VoxelBox{v, v};
+      box->min = {std::min(box->min.x, v.x), std::min(box->min.y, v.y), std::min(box->min.z, v.z)};
+      box->max = {std::max(box->max.x, v.x), std::max(box->max.y, v.y), std::max(box->max.z, v.z)};
+    });
+  });
+  return box;
+}
+
+std::size_t SemanticMap::knownVoxelCount() const {
+  std::size_t count = 0;
+  store_.forEach([&](const ChunkIndex&, const Chunk& chunk) {
+    count += static_cast<std::size_t>(chunk.knownVoxels());
+  });
+  return count;
+}
+
+std::size_t SemanticMap::memoryBytes() const {
+  return store_.memoryBytes();
+}
+
+void SemanticMap::addChunkRecord(const ChunkIndex& index, const void* bytes, std::size_t size) {
+  constexpr std::int32_t limit = (1 << 20) - 1;
+  const auto addressable = [](std::int32_t i) { return i >= -limit && i <= limit; };
+  if (!addressable(index.x) || !addressable(index.y) || !addressable(index.z))
+    throw std::runtime_error("chunk index (" + std::to_string(index.x) + ", " +
+                             std::to_string(index.y) + ", " + std::to_string(index.z) +
+                             ") is outside the addressable range");
+  store_.add(index, Chunk::fromRecord(bytes, size, options_.number_of_classes));
+}
+
+}  // namespace csom
