@@ -26,9 +26,10 @@ endfunction()
 # csom_add_test(core/GridTest LINK csom::core …): test/core/GridTest.cpp becomes a program of its own.
 #   SOURCES …   further source files
 #   REAL_DATA   label `real-data`: needs the folder named by the environment variable CSOM_DATA
+#   MRPT_APPS   label `mrpt-apps`: loads the plug-in into MRPT's own programs
 #   RUN_SERIAL  runs alone: for tests that need the whole machine's memory or processors
 function(csom_add_test path)
-  cmake_parse_arguments(arg "REAL_DATA;RUN_SERIAL" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(arg "REAL_DATA;MRPT_APPS;RUN_SERIAL" "" "SOURCES;LINK" ${ARGN})
   string(REPLACE "/" "_" target ${path})
   add_executable(${target} ${CMAKE_SOURCE_DIR}/test/${path}.cpp ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE ${arg_LINK} csom_warnings GTest::gmock GTest::gtest_main)
@@ -37,9 +38,18 @@ function(csom_add_test path)
     CSOM_SOURCE_DIR="${CMAKE_SOURCE_DIR}" CSOM_BINARY_DIR="${CMAKE_BINARY_DIR}"
     CSOM_PROGRAM="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/csom"
     CSOM_PLUGIN="${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/libcsom-maps.so")
-  set(properties TIMEOUT 600)
+  # One label, as gtest_discover_tests() takes no lists; ctest matches labels by regular expression.
+  set(label)
   if(arg_REAL_DATA)
-    list(APPEND properties LABELS real-data)
+    string(APPEND label "real-data ")
+  endif()
+  if(arg_MRPT_APPS)
+    string(APPEND label "mrpt-apps ")
+  endif()
+  string(STRIP "${label}" label)
+  set(properties TIMEOUT 600)
+  if(label)
+    list(APPEND properties LABELS "${label}")
   endif()
   if(arg_RUN_SERIAL)
     list(APPEND properties RUN_SERIAL TRUE)

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs the build tree, moves the prefix, builds the consumer against it and runs everything.
+foreach(variable BINARY_DIR CONSUMER_DIR WORK_DIR GENERATOR CXX_COMPILER BUILD_TYPE BINDIR DATADIR)
+  if(NOT ${variable})
+    message(FATAL_ERROR "${variable} is not set")
+  endif()
+endforeach()
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${ARGN}\nfailed (${result}):\n${output}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK_DIR})
+file(MAKE_DIRECTORY ${WORK_DIR})
+set(ENV{DESTDIR} "")
+run(${CMAKE_COMMAND} --install ${BINARY_DIR} --prefix ${WORK_DIR}/first)
+file(RENAME ${WORK_DIR}/first ${WORK_DIR}/moved)
+
+run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build
+  -DCMAKE_PREFIX_PATH=${WORK_DIR}/moved -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+  -DCMAKE_CXX_FLAGS=${CXX_FLAGS} -DCMAKE_BUILD_TYPE=${BUILD_TYPE})
+run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
+run(${WORK_DIR}/build/consumer)
+
+run(${WORK_DIR}/moved/${BINDIR}/csom --version)
+foreach(file labels/semantickitti.yaml campus.ini)
+  if(NOT EXISTS ${WORK_DIR}/moved/${DATADIR}/mrpt_csom/${file})
+    message(FATAL_ERROR "not installed: ${file}")
+  endif()
+endforeach()
+# The prefix holds debug information and libraries of tens of megabytes.
+file(REMOVE_RECURSE ${WORK_DIR})
