@@ -96,8 +96,8 @@ Eigen::Isometry3d roundedPose(const mrpt::poses::CPose3D& pose) {
     throw std::runtime_error("robot pose is not finite: " + pose.asString());
   Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
   out.linear() = rotationOf(onLattice(quaternionOf(rotation)));
-  out.translation() = {onLattice(translation.x()), onLattice(translation.y()),
-                       onLattice(translation.z())};
+  out.translation() << onLattice(translation.x()), onLattice(translation.y()),
+      onLattice(translation.z());
   return out;
 }
 
@@ -105,7 +105,7 @@ Eigen::Isometry3d sensorPoseInMap(const Eigen::Isometry3d& robot,
                                   const mrpt::poses::CPose3D& sensor) {
   Eigen::Isometry3d on_robot = Eigen::Isometry3d::Identity();
   on_robot.linear() = rotationOf(sensor);
-  on_robot.translation() = {sensor.x(), sensor.y(), sensor.z()};
+  on_robot.translation() << sensor.x(), sensor.y(), sensor.z();
   return robot * on_robot;
 }
 

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Creation, copies and insertion.
+#include <csom/core/Error.h>
+#include <csom/maps/CSemanticContinuousMap.h>
+#include <csom/maps/PoseRounding.h>
+
+#include <iostream>
+#include <utility>
+
+#include "ObservationName.h"
+
+namespace csom {
+namespace {
+
+Options withClassesOf(Options options, const LabelSet& labels) {
+  options.number_of_classes = labels.numberOfClasses();
+  return options;
+}
+
+/// MRPT's exceptions span many lines; the reason is in the one that begins with "Message:".
+std::string oneLine(const std::string& what) {
+  constexpr char kMark[] = "Message:";
+  const std::size_t mark = what.find(kMark);
+  std::size_t begin = mark == std::string::npos ? 0 : mark + sizeof kMark - 1;
+  begin = what.find_first_not_of(" \t\r\n", begin);
+  if (begin == std::string::npos) return "unknown reason";
+  return what.substr(begin, what.find_first_of("\r\n", begin) - begin);
+}
+
+std::string listOf(const std::map<std::string, std::size_t>& counts) {
+  std::string list;
+  for (const auto& [name, count] : counts)
+    list += (list.empty() ? "" : ", ") + name + " " + std::to_string(count);
+  return list;
+}
+
+/// What a file says of the points and observations that are not in the map.
+std::map<std::string, std::string> describe(const InsertionStatistics& statistics) {
+  std::map<std::string, std::string> meta;
+  const auto note = [&](const char* key, std::size_t count) {
+    if (count > 0) meta[key] = std::to_string(count);
+  };
+  note("points_without_label_dropped", statistics.labels.missing);
+  note("points_with_unknown_label_dropped", statistics.labels.unknown);
+  note("points_with_ignored_label_dropped", statistics.labels.ignored);
+  note("points_with_several_labels_dropped", statistics.labels.ambiguous);
+  note("observations_without_usable_points", statistics.without_points);
+  if (!statistics.not_taken.empty()) meta["observations_not_taken"] = listOf(statistics.not_taken);
+  if (!statistics.damaged.empty()) meta["observations_damaged"] = listOf(statistics.damaged);
+  return meta;
+}
+
+}  // namespace
+
+CSemanticContinuousMap::CSemanticContinuousMap() : CSemanticContinuousMap(Options{}) {}
+
+CSemanticContinuousMap::CSemanticContinuousMap(const Options& options, const LabelSet& labels)
+    : map_(withClassesOf(options, labels)), labels_(std::make_shared<const LabelSet>(labels)) {}
+
+// The base class is not copied: observers subscribe to one map, not to its copies.
+CSemanticContinuousMap::CSemanticContinuousMap(const CSemanticContinuousMap& other)
+    : mrpt::maps::CMetricMap(),
+      insertionOptions(other.insertionOptions),
+      likelihoodOptions(other.likelihoodOptions),
+      renderingOptions(other.renderingOptions),
+      map_(other.map_),
+      labels_(other.labels_),
+      scans_(other.scans_),
+      statistics_(other.statistics_),
+      meta_(other.meta_) {
+  genericMapParams = other.genericMapParams;
+}
+
+CSemanticContinuousMap& CSemanticContinuousMap::operator=(const CSemanticContinuousMap& other) {
+  if (this == &other) return *this;
+  genericMapParams = other.genericMapParams;
+  insertionOptions = other.insertionOptions;
+  likelihoodOptions = other.likelihoodOptions;
+  renderingOptions = other.renderingOptions;
+  map_ = other.map_;
+  labels_ = other.labels_;
+  scans_ = other.scans_;
+  statistics_ = other.statistics_;
+  meta_ = other.meta_;
+  adapter_.reset();
+  occupied_points_.invalidate();
+  return *this;
+}
+
+MapDocument CSemanticContinuousMap::document() const {
+  MapDocument document{map_, *labels_, scans_, meta_};
+  for (const auto& [key, value] : describe(statistics_)) document.meta[key] = value;
+  return document;
+}
+
+void CSemanticContinuousMap::setDocument(MapDocument document) {
+  if (document.map.options().number_of_classes != document.labels.numberOfClasses())
+    throw std::invalid_argument("the map and its label set differ in their number of classes");
+  map_ = std::move(document.map);
+  labels_ = std::make_shared<const LabelSet>(std::move(document.labels));
+  scans_ = std::move(document.scans);
+  meta_ = std::move(document.meta);
+  statistics_ = {};
+  statistics_.inserted = scans_.size();
+  adapter_.reset();
+  occupied_points_.invalidate();
+}
+
+std::string CSemanticContinuousMap::asString() const {
+  return "csom::CSemanticContinuousMap: " + std::to_string(map_.knownVoxelCount()) +
+         " known voxels of " + toString(map_.options().resolution) + " m, " +
+         std::to_string(labels_->numberOfClasses()) + " classes (" + labels_->name() + "), " +
+         std::to_string(scans_.size()) + " observations";
+}
+
+void CSemanticContinuousMap::saveMetricMapRepresentationToFile(const std::string& prefix) const {
+  saveMap(document(), prefix + ".csom");
+}
+
+void CSemanticContinuousMap::auxParticleFilterCleanUp() {
+  occupied_points_.invalidate();
+}
+
+void CSemanticContinuousMap::internal_clear() {
+  map_.clear();
+  scans_.clear();
+  statistics_ = {};
+  meta_.clear();
+  adapter_.reset();
+  occupied_points_.invalidate();
+}
+
+LabelRules CSemanticContinuousMap::labelRules() const {
+  return LabelRules(*labels_, insertionOptions.point_labels, insertionOptions.unlabelled_class,
+                    insertionOptions.scan_2d_class);
+}
+
+bool CSemanticContinuousMap::internal_insertObservation(
+    const mrpt::obs::CObservation& observation,
+    const std::optional<const mrpt::poses::CPose3D>& robot_pose) {
+  const LabelRules rules = labelRules();
+  if (!adapter_) adapter_ = std::make_unique<SelfLabelledAdapter>();
+  std::optional<std::vector<AdaptedScan>> adapted;
+  try {
+    const Eigen::Isometry3d pose = roundedPose(robot_pose.value_or(mrpt::poses::CPose3D()));
+    adapted = adapter_->adapt(observation, pose, rules);
+  } catch (const std::exception& error) {
+    // An application must not stop because of one damaged observation.
+    noteDamaged(observation, oneLine(error.what()));
+    return false;
+  }
+  if (!adapted) {
+    ++statistics_.not_taken[observationName(observation)];
+    return false;
+  }
+  bool used = false;
+  for (const AdaptedScan& scan : *adapted) used |= insertScan(scan);
+  return used;
+}
+
+bool CSemanticContinuousMap::insertScan(const AdaptedScan& adapted) {
+  statistics_.labels += adapted.labels;
+  ScanReport report = map_.insert(adapted.scan);
+  if (report.points == report.rejectedTotal()) {
+    ++statistics_.without_points;
+    return false;
+  }
+  ++statistics_.inserted;
+  occupied_points_.invalidate();
+  const Eigen::Vector3d& origin = adapted.scan.origin;
+  scans_.push_back({adapted.timestamp,
+                    adapted.sensor_label,
+                    adapted.observation_class,
+                    {origin.x(), origin.y(), origin.z()},
+                    report});
+  return true;
+}
+
+void CSemanticContinuousMap::noteDamaged(const mrpt::obs::CObservation& observation,
+                                         const std::string& why) {
+  const std::string name = observationName(observation);
+  if (statistics_.damaged[name]++ > 0) return;
+  statistics_.why_damaged[name] = why;
+  std::cerr << "csom: warning: " << name << " '" << observation.sensorLabel
+            << "' is not inserted: " << why << " (further ones are only counted)\n";
+}
+
+}  // namespace csom

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The extractors of the library, one for each kind of observation.
+#pragma once
+
+#include <csom/maps/PointExtractor.h>
+
+#include <memory>
+
+namespace csom {
+
+/// CObservationVelodyneScan: raw packets if there are any, else the stored cloud; labels in the
+/// intensities.
+std::unique_ptr<PointExtractor> makeVelodyneExtractor();
+/// CObservationPointCloud: labels in the intensities of a CPointsMapXYZI or the colours of a
+/// CColouredPointsMap.
+std::unique_ptr<PointExtractor> makePointCloudExtractor();
+/// CObservation3DRangeScan: the range image, or else the stored points; labels of pixels.
+std::unique_ptr<PointExtractor> makeRangeCameraExtractor();
+/// CObservationRotatingScan: labels in the intensity image.
+std::unique_ptr<PointExtractor> makeRotatingScanExtractor();
+/// CObservation2DRangeScan: all valid rays, one class.
+std::unique_ptr<PointExtractor> makeLaserScanExtractor();
+
+}  // namespace csom

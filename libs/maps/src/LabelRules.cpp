@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the labels that observations carry become classes of a map.
+#include <csom/core/Error.h>
+#include <csom/core/Options.h>
+#include <csom/maps/LabelRules.h>
+
+#include <cmath>
+
+namespace csom {
+namespace {
+
+constexpr char kDrop[] = "drop";
+
+std::string listOfClasses(const LabelSet& labels) {
+  std::string list;
+  for (const LabelClass& c : labels.classes()) {
+    if (c.id != kFreeClass) list += c.name + ", ";
+  }
+  return list + kDrop;
+}
+
+std::optional<ClassId> classOrDrop(const LabelSet& labels, const std::string& key,
+                                   const std::string& name) {
+  if (name == kDrop) return std::nullopt;
+  const std::optional<ClassId> id = labels.classByName(name);
+  if (!id || *id == kFreeClass) {
+    throw ConfigError(key + " = " + name + " is no class of label set '" + labels.name() +
+                      "' that a point can have; accepted: " + listOfClasses(labels));
+  }
+  return id;
+}
+
+std::optional<ClassId> defaultUnlabelled(const LabelSet& labels) {
+  for (const char* name : {"occupied", "unlabelled"}) {
+    const std::optional<ClassId> id = labels.classByName(name);
+    if (id && *id != kFreeClass) return id;
+  }
+  return std::nullopt;
+}
+
+PointLabel found(ClassId id) {
+  return {PointLabel::Kind::Class, id};
+}
+
+}  // namespace
+
+std::string toString(PointLabels value) {
+  switch (value) {
+    case PointLabels::None:
+      return "none";
+    case PointLabels::ByIntensity:
+      return "intensity";
+    case PointLabels::ByColor:
+      return "color";
+  }
+  return "none";
+}
+
+void parse(const std::string& key, const std::string& text, PointLabels& value) {
+  for (const PointLabels candidate :
+       {PointLabels::None, PointLabels::ByIntensity, PointLabels::ByColor}) {
+    if (text != toString(candidate)) continue;
+    value = candidate;
+    return;
+  }
+  throw OptionError(key + " = " + text + " is not accepted; use none, intensity or color");
+}
+
+LabelCounts& LabelCounts::operator+=(const LabelCounts& other) {
+  labelled += other.labelled;
+  unlabelled += other.unlabelled;
+  missing += other.missing;
+  unknown += other.unknown;
+  ignored += other.ignored;
+  ambiguous += other.ambiguous;
+  return *this;
+}
+
+LabelRules::LabelRules(const LabelSet& labels, PointLabels source,
+                       const std::string& unlabelled_class, const std::string& scan_2d_class)
+    : labels_(&labels), source_(source) {
+  unlabelled_ = unlabelled_class.empty()
+                    ? defaultUnlabelled(labels)
+                    : classOrDrop(labels, "unlabelled_class", unlabelled_class);
+  scan_2d_ =
+      scan_2d_class.empty() ? unlabelled_ : classOrDrop(labels, "scan_2d_class", scan_2d_class);
+}
+
+PointLabel LabelRules::fromRaw(std::uint32_t raw_id) const {
+  const LabelSet::Raw raw = labels_->classOfRaw(raw_id);
+  switch (raw.kind) {
+    case LabelSet::RawKind::Class:
+      return found(raw.id);
+    case LabelSet::RawKind::Ignored:
+      return {PointLabel::Kind::Ignored};
+    case LabelSet::RawKind::Unknown:
+      break;
+  }
+  return {PointLabel::Kind::Unknown};
+}
+
+PointLabel LabelRules::fromIntensity(float intensity) const {
+  constexpr float kMaxExactInteger = 16777216.0f;
+  const bool is_id = std::isfinite(intensity) && intensity >= 0 && intensity < kMaxExactInteger &&
+                     intensity == std::floor(intensity);
+  return is_id ? fromRaw(static_cast<std::uint32_t>(intensity))
+               : PointLabel{PointLabel::Kind::Unknown};
+}
+
+PointLabel LabelRules::fromColor(const Color& color) const {
+  const std::optional<ClassId> id = labels_->classByColor(color);
+  return id ? found(*id) : PointLabel{PointLabel::Kind::Unknown};
+}
+
+PointLabel LabelRules::fromName(const std::string& name) const {
+  const std::optional<ClassId> id = labels_->classByName(name);
+  return id ? found(*id) : PointLabel{PointLabel::Kind::Unknown};
+}
+
+PointLabel LabelRules::ofScan2D() const {
+  return scan_2d_ ? found(*scan_2d_) : PointLabel{PointLabel::Kind::Missing};
+}
+
+}  // namespace csom

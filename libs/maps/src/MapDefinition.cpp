@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The map as ini files define it.
+#include <csom/core/Error.h>
+#include <csom/maps/CSemanticContinuousMap.h>
+#include <mrpt/config/CConfigFile.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <type_traits>
+
+#include "IniSection.h"
+
+namespace csom {
+namespace {
+
+using mrpt::config::CConfigFileBase;
+
+// The names that the map is registered by; the same list stands in MAP_DEFINITION_REGISTER.
+constexpr const char* kMapNames[] = {"csom::CSemanticContinuousMap", "CSemanticContinuousMap",
+                                     "semanticContinuousMap"};
+
+/// Keys that MRPT itself reads from the section of creation options.
+constexpr const char* kGenericKeys[] = {"enableSaveAs3DObject", "enableObservationLikelihood",
+                                        "enableObservationInsertion"};
+
+void readCoreOptions(IniSection& section, Options& options) {
+  visitOptions(options, [&](const char* key, auto& field, const char*, const char*) {
+    section.read(key, field);
+  });
+}
+
+void readInsertion(IniSection& section, CSemanticContinuousMap::TInsertionOptions& options) {
+  section.read("point_labels", options.point_labels);
+  section.read("unlabelled_class", options.unlabelled_class);
+  section.read("scan_2d_class", options.scan_2d_class);
+}
+
+void requirePositive(const IniSection& section, const std::string& key, double value) {
+  if (!(value > 0))
+    throw ConfigError(section.place() + ": " + key + " = " + toString(value) +
+                      " must be greater than 0");
+}
+
+void readLikelihood(IniSection& section, CSemanticContinuousMap::TLikelihoodOptions& options) {
+  section.read("decimation", options.decimation);
+  section.read("max_distance", options.max_distance);
+  section.read("sigma", options.sigma);
+  requirePositive(section, "decimation", options.decimation);
+  requirePositive(section, "max_distance", options.max_distance);
+  requirePositive(section, "sigma", options.sigma);
+}
+
+void readRendering(IniSection& section, CSemanticContinuousMap::TRenderingOptions& options) {
+  section.read("occupied_voxels", options.occupied_voxels);
+  section.read("free_voxels", options.free_voxels);
+}
+
+template <class Value>
+void dump(std::ostream& out, const std::string& key, const Value& value) {
+  out << key << std::string(key.size() < 40 ? 40 - key.size() : 1, ' ') << "= " << value << "\n";
+}
+
+/// Reads the sections of one map and collects what nothing has read.
+class DefinitionReader {
+ public:
+  DefinitionReader(const CConfigFileBase& source, const std::string& prefix)
+      : source_(source), prefix_(prefix) {}
+
+  /// `read(IniSection&)` for each spelling of a section, whether it is there or not.
+  template <class Read>
+  void section(const std::vector<std::string>& suffixes, Read&& read) {
+    for (const std::string& suffix : suffixes) {
+      IniSection section(source_, prefix_ + suffix);
+      read(section);
+      known_.insert(prefix_ + suffix);
+      const std::vector<std::string> unread = section.unreadKeys();
+      unknown_.insert(unknown_.end(), unread.begin(), unread.end());
+    }
+  }
+
+  std::vector<std::string> unknown() const {
+    std::vector<std::string> all = unknown_;
+    std::vector<std::string> sections;
+    source_.getAllSections(sections);
+    for (const std::string& name : sections) {
+      if (name.compare(0, prefix_.size() + 1, prefix_ + "_") != 0 || known_.count(name) != 0)
+        continue;
+      std::vector<std::string> keys;
+      source_.getAllKeys(name, keys);
+      for (const std::string& key : keys)
+        all.push_back(IniSection(source_, name).place() + " " + key);
+    }
+    return all;
+  }
+
+ private:
+  const CConfigFileBase& source_;
+  std::string prefix_;
+  std::set<std::string> known_;
+  std::vector<std::string> unknown_;
+};
+
+LabelSet loadLabels(const std::string& name, const CConfigFileBase& source,
+                    const std::string& place) {
+  const std::string file = fileOf(source);
+  const std::string folder =
+      file.empty() ? std::string() : std::filesystem::path(file).parent_path().string();
+  try {
+    return LabelSet::load(LabelSet::find(name, folder));
+  } catch (const ConfigError& error) {
+    throw ConfigError(place + ": label_set = " + name + ": " + error.what());
+  }
+}
+
+/// Throws ConfigError in the terms of the ini file for options that cannot be.
+void check(const CSemanticContinuousMap::TMapDefinition& definition, const std::string& place) {
+  try {
+    definition.options.validate();
+    LabelRules(definition.labels, definition.insertionOpts.point_labels,
+               definition.insertionOpts.unlabelled_class, definition.insertionOpts.scan_2d_class);
+  } catch (const OptionError& error) {
+    throw ConfigError(place + ": " + error.what());
+  } catch (const ConfigError& error) {
+    throw ConfigError(place + ": " + error.what());
+  }
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
+  return all;
+}
+
+}  // namespace
+
+CSemanticContinuousMap::TMapDefinition::TMapDefinition() = default;
+
+void CSemanticContinuousMap::TMapDefinition::load(const CConfigFileBase& source,
+                                                  const std::string& section_prefix) {
+  DefinitionReader reader(source, section_prefix);
+  std::string label_set;
+  bool number_of_classes_given = false;
+  reader.section({"_creationOpts"}, [&](IniSection& section) {
+    genericMapParams.loadFromConfigFile(source, section_prefix + "_creationOpts");
+    for (const char* key : kGenericKeys) section.has(key);
+    section.read("label_set", label_set);
+    number_of_classes_given |= section.has("number_of_classes");
+    readCoreOptions(section, options);
+  });
+  reader.section({"_insertOpts", "_insertionOpts"}, [&](IniSection& section) {
+    number_of_classes_given |= section.has("number_of_classes");
+    readCoreOptions(section, options);
+    readInsertion(section, insertionOpts);
+  });
+  reader.section({"_likelihoodOpts"},
+                 [&](IniSection& section) { readLikelihood(section, likelihoodOpts); });
+  reader.section({"_renderOpts"}, [&](IniSection& section) { readRendering(section, renderOpts); });
+  unknown_keys_ = reader.unknown();
+
+  const std::string place = IniSection(source, section_prefix + "_*").place();
+  if (!label_set.empty()) labels = loadLabels(label_set, source, place);
+  if (number_of_classes_given && options.number_of_classes != labels.numberOfClasses()) {
+    throw ConfigError(place + ": number_of_classes = " + toString(options.number_of_classes) +
+                      ", but label set '" + labels.name() + "' has " +
+                      toString(labels.numberOfClasses()) + "; leave the key out");
+  }
+  options.number_of_classes = labels.numberOfClasses();
+  check(*this, place);
+}
+
+void CSemanticContinuousMap::TMapDefinition::loadFromConfigFile_map_specific(
+    const CConfigFileBase& source, const std::string& section_prefix) {
+  load(source, section_prefix);
+  // MRPT's applications have no other way to tell their user.
+  for (const std::string& key : unknown_keys_)
+    std::cerr << "csom: warning: " << key << ": unknown key, ignored\n";
+}
+
+void CSemanticContinuousMap::TMapDefinition::dumpToTextStream_map_specific(
+    std::ostream& out) const {
+  dump(out, "label_set", labels.name());
+  visitOptions(options, [&](const char* key, const auto& field, const char*, const char*) {
+    dump(out, key, toString(field));
+  });
+  insertionOpts.dumpToTextStream(out);
+  likelihoodOpts.dumpToTextStream(out);
+  renderOpts.dumpToTextStream(out);
+}
+
+mrpt::maps::CMetricMap* CSemanticContinuousMap::internal_CreateFromMapDefinition(
+    const mrpt::maps::TMetricMapInitializer& definition) {
+  return new CSemanticContinuousMap(dynamic_cast<const TMapDefinition&>(definition));
+}
+
+CSemanticContinuousMap::CSemanticContinuousMap(const TMapDefinition& definition)
+    : CSemanticContinuousMap(definition.options, definition.labels) {
+  genericMapParams = definition.genericMapParams;
+  insertionOptions = definition.insertionOpts;
+  likelihoodOptions = definition.likelihoodOpts;
+  renderingOptions = definition.renderOpts;
+  labelRules();  // throws for classes that are not in the label set
+}
+
+CSemanticContinuousMap::TMapDefinition CSemanticContinuousMap::definitionFromIni(
+    const std::string& file, const std::string& application_section) {
+  // CConfigFile takes a missing file for an empty one.
+  if (!std::ifstream(file)) throw FileError(file, "cannot be read");
+  const mrpt::config::CConfigFile ini(file);
+
+  std::vector<std::string> prefixes;
+  std::vector<std::string> count_keys;
+  for (const char* name : kMapNames) {
+    IniSection section(ini, application_section);
+    const std::string key = std::string(name) + "_count";
+    count_keys.push_back(key);
+    int count = 0;
+    section.read(key, count);
+    for (int i = 0; i < count; ++i) {
+      std::string number = std::to_string(i);
+      if (number.size() < 2) number.insert(0, "0");
+      prefixes.push_back(application_section + "_" + name + "_" + number);
+    }
+  }
+  if (prefixes.size() != 1) {
+    throw ConfigError(file + " [" + application_section + "] defines " +
+                      std::to_string(prefixes.size()) +
+                      " semantic maps; set exactly one of these keys to 1: " + joined(count_keys));
+  }
+  TMapDefinition definition;
+  definition.load(ini, prefixes.front());
+  return definition;
+}
+
+void CSemanticContinuousMap::TInsertionOptions::loadFromConfigFile(const CConfigFileBase& source,
+                                                                   const std::string& section) {
+  IniSection ini(source, section);
+  readInsertion(ini, *this);
+}
+
+void CSemanticContinuousMap::TInsertionOptions::dumpToTextStream(std::ostream& out) const {
+  dump(out, "point_labels", toString(point_labels));
+  dump(out, "unlabelled_class", unlabelled_class);
+  dump(out, "scan_2d_class", scan_2d_class);
+}
+
+void CSemanticContinuousMap::TLikelihoodOptions::loadFromConfigFile(const CConfigFileBase& source,
+                                                                    const std::string& section) {
+  IniSection ini(source, section);
+  readLikelihood(ini, *this);
+}
+
+void CSemanticContinuousMap::TLikelihoodOptions::dumpToTextStream(std::ostream& out) const {
+  dump(out, "decimation", decimation);
+  dump(out, "max_distance", max_distance);
+  dump(out, "sigma", sigma);
+}
+
+void CSemanticContinuousMap::TRenderingOptions::loadFromConfigFile(const CConfigFileBase& source,
+                                                                   const std::string& section) {
+  IniSection ini(source, section);
+  readRendering(ini, *this);
+}
+
+void CSemanticContinuousMap::TRenderingOptions::dumpToTextStream(std::ostream& out) const {
+  dump(out, "occupied_voxels", toString(occupied_voxels));
+  dump(out, "free_voxels", toString(free_voxels));
+}
+
+}  // namespace csom

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From observations to semantic points.
+#include <csom/maps/ObservationAdapter.h>
+#include <csom/maps/PoseRounding.h>
+
+#include "ObservationName.h"
+
+namespace csom {
+namespace {
+
+void count(LabelCounts& counts, PointLabel::Kind kind) {
+  switch (kind) {
+    case PointLabel::Kind::Class:
+      ++counts.labelled;
+      break;
+    case PointLabel::Kind::Missing:
+      ++counts.missing;
+      break;
+    case PointLabel::Kind::Unknown:
+      ++counts.unknown;
+      break;
+    case PointLabel::Kind::Ignored:
+      ++counts.ignored;
+      break;
+    case PointLabel::Kind::Ambiguous:
+      ++counts.ambiguous;
+      break;
+  }
+}
+
+/// The class that a point enters the map with; nothing if it is dropped.
+std::optional<ClassId> classOf(const PointLabel& label, const LabelRules& rules,
+                               LabelCounts& counts) {
+  if (label.kind == PointLabel::Kind::Missing && rules.unlabelledClass()) {
+    ++counts.unlabelled;
+    return rules.unlabelledClass();
+  }
+  count(counts, label.kind);
+  if (label.kind != PointLabel::Kind::Class) return std::nullopt;
+  return label.id;
+}
+
+double secondsSince1970(const mrpt::obs::CObservation& observation) {
+  if (observation.timestamp == INVALID_TIMESTAMP) return 0;
+  return mrpt::Clock::toDouble(observation.timestamp);
+}
+
+}  // namespace
+
+AdaptedScan makeScan(const SensorPoints& points, const Eigen::Isometry3d& robot_pose,
+                     const LabelRules& rules) {
+  const Eigen::Isometry3d sensor = sensorPoseInMap(robot_pose, points.sensor_pose);
+  const Eigen::Matrix3d rotation = sensor.linear();
+  AdaptedScan out;
+  out.scan.origin = sensor.translation();
+  out.scan.points.reserve(points.points.size());
+  out.scan.labels.reserve(points.points.size());
+  for (std::size_t i = 0; i < points.points.size(); ++i) {
+    const std::optional<ClassId> id = classOf(points.labels[i], rules, out.labels);
+    if (!id) continue;
+    const Eigen::Vector3d rotated = rotation * points.points[i].cast<double>();
+    out.scan.points.push_back(rotated.cast<float>());
+    out.scan.labels.push_back(*id);
+  }
+  return out;
+}
+
+SelfLabelledAdapter::SelfLabelledAdapter() : extractors_(makePointExtractors()) {}
+
+std::optional<std::vector<AdaptedScan>> SelfLabelledAdapter::adapt(
+    const mrpt::obs::CObservation& observation, const Eigen::Isometry3d& robot_pose,
+    const LabelRules& rules) {
+  for (const auto& extractor : extractors_) {
+    if (!extractor->accepts(observation)) continue;
+    AdaptedScan adapted = makeScan(extractor->extract(observation, rules), robot_pose, rules);
+    adapted.timestamp = secondsSince1970(observation);
+    adapted.sensor_label = observation.sensorLabel;
+    adapted.observation_class = observationName(observation);
+    std::vector<AdaptedScan> scans;
+    scans.push_back(std::move(adapted));
+    return scans;
+  }
+  return std::nullopt;
+}
+
+}  // namespace csom

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points of CObservationPointCloud.
+#include <mrpt/maps/CColouredPointsMap.h>
+#include <mrpt/maps/CPointsMapXYZI.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "Extractors.h"
+
+namespace csom {
+namespace {
+
+using mrpt::maps::CColouredPointsMap;
+using mrpt::maps::CPointsMap;
+using mrpt::maps::CPointsMapXYZI;
+using mrpt::obs::CObservationPointCloud;
+
+std::uint8_t toByte(float channel) {
+  const float value = std::round(channel * 255.0f);
+  return value >= 0 && value <= 255 ? static_cast<std::uint8_t>(value) : std::uint8_t{0};
+}
+
+std::vector<PointLabel> labelsByIntensity(const CPointsMapXYZI& cloud, const LabelRules& rules) {
+  const auto& intensities = cloud.getPointsBufferRef_intensity();
+  // Some ways of filling this class leave more intensities than points: then no point's own label
+  // is known.
+  if (intensities.size() != cloud.size()) {
+    throw std::runtime_error("the cloud has " + std::to_string(cloud.size()) + " points but " +
+                             std::to_string(intensities.size()) + " intensities");
+  }
+  std::vector<PointLabel> labels;
+  labels.reserve(intensities.size());
+  for (const float intensity : intensities) labels.push_back(rules.fromIntensity(intensity));
+  return labels;
+}
+
+std::vector<PointLabel> labelsByColor(const CColouredPointsMap& cloud, const LabelRules& rules) {
+  std::vector<PointLabel> labels(cloud.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    float red = 0;
+    float green = 0;
+    float blue = 0;
+    cloud.getPointColor(i, red, green, blue);
+    labels[i] = rules.fromColor({toByte(red), toByte(green), toByte(blue)});
+  }
+  return labels;
+}
+
+std::vector<PointLabel> labelsOf(const CPointsMap& cloud, const LabelRules& rules) {
+  if (rules.source() == PointLabels::ByIntensity) {
+    if (const auto* xyzi = dynamic_cast<const CPointsMapXYZI*>(&cloud))
+      return labelsByIntensity(*xyzi, rules);
+  }
+  if (rules.source() == PointLabels::ByColor) {
+    if (const auto* coloured = dynamic_cast<const CColouredPointsMap*>(&cloud))
+      return labelsByColor(*coloured, rules);
+  }
+  return std::vector<PointLabel>(cloud.size());
+}
+
+class PointCloudExtractor : public PointExtractor {
+ public:
+  bool accepts(const mrpt::obs::CObservation& observation) const override {
+    return dynamic_cast<const CObservationPointCloud*>(&observation) != nullptr;
+  }
+
+  SensorPoints extract(const mrpt::obs::CObservation& observation,
+                       const LabelRules& rules) const override {
+    const auto& scan = dynamic_cast<const CObservationPointCloud&>(observation);
+    scan.load();  // the cloud may lie in a file of its own
+    if (!scan.pointcloud) throw std::runtime_error("it has no point cloud");
+    const CPointsMap& cloud = *scan.pointcloud;
+    const auto& x = cloud.getPointsBufferRef_x();
+    const auto& y = cloud.getPointsBufferRef_y();
+    const auto& z = cloud.getPointsBufferRef_z();
+
+    SensorPoints out;
+    out.sensor_pose = scan.sensorPose;
+    out.labels = labelsOf(cloud, rules);
+    out.points.reserve(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) out.points.emplace_back(x[i], y[i], z[i]);
+    return out;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<PointExtractor> makePointCloudExtractor() {
+  return std::make_unique<PointCloudExtractor>();
+}
+
+}  // namespace csom

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points of CObservationRotatingScan.
+#include <mrpt/obs/CObservationRotatingScan.h>
+#include <mrpt/obs/VelodyneCalibration.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "Extractors.h"
+
+namespace csom {
+namespace {
+
+using mrpt::obs::CObservationRotatingScan;
+using mrpt::obs::VelodyneCalibration;
+
+bool isVelodyne(const CObservationRotatingScan& scan) {
+  return scan.lidarModel == "VLP-16" || scan.lidarModel == "HDL-32E";
+}
+
+/// Sine and cosine of a row's elevation.
+struct Elevation {
+  double sine = 0;
+  double cosine = 1;
+};
+
+/// The observation does not hold the elevations of its rows: only the models that MRPT has a
+/// calibration of are known, and scanners of one row.
+std::vector<Elevation> elevationsOf(const CObservationRotatingScan& scan) {
+  if (scan.rowCount == 1) return {Elevation{}};
+  if (isVelodyne(scan)) {
+    const char* model = scan.lidarModel == "VLP-16" ? "VLP16" : "HDL32";
+    const auto& lasers = VelodyneCalibration::LoadDefaultCalibration(model).laser_corrections;
+    if (lasers.size() == scan.rowCount) {
+      std::vector<Elevation> elevations;
+      for (const auto& laser : lasers)
+        elevations.push_back({laser.sinVertCorrection, laser.cosVertCorrection});
+      return elevations;
+    }
+  }
+  throw std::runtime_error("the elevations of lidar model '" + scan.lidarModel + "' with " +
+                           std::to_string(scan.rowCount) +
+                           " rows are not known; VLP-16, HDL-32E and single rows are");
+}
+
+bool columnsEmptyFrom(const CObservationRotatingScan& scan, int first) {
+  for (int row = 0; row < scan.rangeImage.rows(); ++row) {
+    for (int column = first; column < scan.rangeImage.cols(); ++column) {
+      if (scan.rangeImage(row, column) != 0) return false;
+    }
+  }
+  return true;
+}
+
+/// Azimuth of a column, counter-clockwise from the sensor's forward direction.
+struct Azimuths {
+  double start = 0;
+  double step = 0;
+};
+
+Azimuths azimuthsOf(const CObservationRotatingScan& scan) {
+  const int columns = static_cast<int>(scan.rangeImage.cols());
+  // MRPT's fromVelodyne() counts one column for each laser, of which it fills the first
+  // 1/rows, and writes clockwise azimuths although they are defined counter-clockwise.
+  const int firings = columns / scan.rowCount;
+  if (isVelodyne(scan) && firings > 0 && columnsEmptyFrom(scan, firings))
+    return {-scan.startAzimuth, -scan.azimuthSpan / firings};
+  return {scan.startAzimuth, columns > 1 ? scan.azimuthSpan / (columns - 1) : 0.0};
+}
+
+class RotatingScanExtractor : public PointExtractor {
+ public:
+  bool accepts(const mrpt::obs::CObservation& observation) const override {
+    return dynamic_cast<const CObservationRotatingScan*>(&observation) != nullptr;
+  }
+
+  SensorPoints extract(const mrpt::obs::CObservation& observation,
+                       const LabelRules& rules) const override {
+    const auto& scan = dynamic_cast<const CObservationRotatingScan&>(observation);
+    const int rows = static_cast<int>(scan.rangeImage.rows());
+    const int columns = static_cast<int>(scan.rangeImage.cols());
+    if (rows != scan.rowCount || columns != scan.columnCount)
+      throw std::runtime_error("its range image has not rowCount x columnCount pixels");
+    const bool labelled = rules.source() == PointLabels::ByIntensity && hasIntensities(scan);
+
+    SensorPoints out;
+    out.sensor_pose = scan.sensorPose;
+    if (rows == 0 || columns == 0) return out;
+    const std::vector<Elevation> elevations = elevationsOf(scan);
+    const Azimuths azimuths = azimuthsOf(scan);
+    for (int column = 0; column < columns; ++column) {
+      const double azimuth = azimuths.start + azimuths.step * column;
+      const Eigen::Vector2d direction(std::cos(azimuth), std::sin(azimuth));
+      for (int row = 0; row < rows; ++row) {
+        const double range = scan.rangeImage(row, column) * scan.rangeResolution;
+        if (range == 0) continue;  // no return
+        const Elevation& elevation = elevations[static_cast<std::size_t>(row)];
+        const Eigen::Vector3d point(range * elevation.cosine * direction.x(),
+                                    range * elevation.cosine * direction.y(),
+                                    range * elevation.sine);
+        out.add(point.cast<float>(),
+                labelled ? rules.fromRaw(scan.intensityImage(row, column)) : PointLabel{});
+      }
+    }
+    return out;
+  }
+
+ private:
+  static bool hasIntensities(const CObservationRotatingScan& scan) {
+    if (scan.intensityImage.rows() == 0 || scan.intensityImage.cols() == 0) return false;
+    if (scan.intensityImage.rows() != scan.rangeImage.rows() ||
+        scan.intensityImage.cols() != scan.rangeImage.cols())
+      throw std::runtime_error("its intensity image has not the size of its range image");
+    return true;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<PointExtractor> makeRotatingScanExtractor() {
+  return std::make_unique<RotatingScanExtractor>();
+}
+
+}  // namespace csom

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points of CObservationVelodyneScan.
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include <stdexcept>
+
+#include "Extractors.h"
+
+namespace csom {
+namespace {
+
+using mrpt::obs::CObservationVelodyneScan;
+
+/// Receives the points that the packets of a scan hold.
+class PacketPoints : public CObservationVelodyneScan::PointCloudStorageWrapper {
+ public:
+  PacketPoints(SensorPoints& out, const LabelRules& rules) : out_(&out), rules_(&rules) {}
+
+  void reserve(std::size_t count) override { out_->reserve(out_->points.size() + count); }
+  void add_point(float x, float y, float z, std::uint8_t intensity,
+                 const mrpt::system::TTimeStamp& /*time*/, float /*azimuth*/,
+                 std::uint16_t /*laser*/) override {
+    const bool labelled = rules_->source() == PointLabels::ByIntensity;
+    out_->add({x, y, z}, labelled ? rules_->fromRaw(intensity) : PointLabel{});
+  }
+
+ private:
+  SensorPoints* out_;
+  const LabelRules* rules_;
+};
+
+class VelodyneExtractor : public PointExtractor {
+ public:
+  bool accepts(const mrpt::obs::CObservation& observation) const override {
+    return dynamic_cast<const CObservationVelodyneScan*>(&observation) != nullptr;
+  }
+
+  SensorPoints extract(const mrpt::obs::CObservation& observation,
+                       const LabelRules& rules) const override {
+    const auto& scan = dynamic_cast<const CObservationVelodyneScan&>(observation);
+    SensorPoints out;
+    out.sensor_pose = scan.sensorPose;
+    PacketPoints points(out, rules);
+    if (scan.scan_packets.empty()) {
+      addCloud(scan.point_cloud, points);
+    } else {
+      addPackets(scan, points);
+    }
+    return out;
+  }
+
+ private:
+  static void addPackets(const CObservationVelodyneScan& scan, PacketPoints& points) {
+    CObservationVelodyneScan::TGeneratePointCloudParameters parameters;
+    // The limits of the sensor (minRange) and of the map (min_range) decide.
+    parameters.minDistance = 0;
+    CObservationVelodyneScan copy = scan;  // generatePointCloud() is not const
+    copy.generatePointCloud(points, parameters);
+  }
+
+  static void addCloud(const CObservationVelodyneScan::TPointCloud& cloud, PacketPoints& points) {
+    const std::size_t count = cloud.x.size();
+    if (cloud.y.size() != count || cloud.z.size() != count || cloud.intensity.size() != count)
+      throw std::runtime_error("point_cloud has coordinates and intensities of unequal number");
+    points.reserve(count);
+    for (std::size_t i = 0; i < count; ++i)
+      points.add_point(cloud.x[i], cloud.y[i], cloud.z[i], cloud.intensity[i], {}, 0, 0);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<PointExtractor> makeVelodyneExtractor() {
+  return std::make_unique<VelodyneExtractor>();
+}
+
+}  // namespace csom
