@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finding and timing the files of a data set.
+#pragma once
+
+#include <csom/rawlog/Import.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace csom::detail {
+
+constexpr double kScanPeriod = 0.1;  ///< [s], where a data set gives no times
+
+/// Files of `folder` that end in `extension` (".bin"), in natural order. Throws FileError if there
+/// is no such folder or no such file in it.
+std::vector<std::string> filesIn(const std::string& folder, const std::string& extension);
+
+/// Positions chosen out of `files`. Throws FileError naming `folder` if there are none.
+std::vector<std::size_t> choose(const ScanSelection& selection, const std::string& folder,
+                                std::size_t count);
+
+/// The number that a file is named by ("000012.bin" → 12); nothing if its name is none.
+std::optional<std::size_t> numberOfFile(const std::string& file);
+
+/// Times [s since 1970] from a file of one time a line, either seconds (times.txt of KITTI
+/// odometry) or "2011-09-26 13:02:25.96" (timestamps.txt of KITTI raw, taken as UTC). Empty if
+/// there is no such file. Throws FileError naming the line.
+std::vector<double> readTimes(const std::string& file);
+
+}  // namespace csom::detail

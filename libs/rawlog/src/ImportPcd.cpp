@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Point clouds in PCD files become a rawlog.
+#include <csom/core/Error.h>
+#include <csom/rawlog/ImportPcd.h>
+#include <csom/rawlog/RawlogWriter.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "DataSetFiles.h"
+#include "LoggedScan.h"
+
+namespace csom {
+namespace {
+
+std::vector<std::string> expand(const std::vector<std::string>& given) {
+  std::vector<std::string> files;
+  for (const std::string& name : given) {
+    std::error_code error;
+    if (std::filesystem::is_directory(name, error)) {
+      for (std::string& file : detail::filesIn(name, ".pcd")) files.push_back(std::move(file));
+    } else {
+      files.push_back(name);
+    }
+  }
+  std::sort(files.begin(), files.end(), naturalLess);
+  return files;
+}
+
+/// Points relative to the sensor, and what their intensity carries.
+struct Cloud {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3f> points;
+  std::vector<float> carried;
+};
+
+std::vector<float> carriedBy(const PcdCloud& cloud, PcdField field, const std::string& file) {
+  if (field == PcdField::Label && cloud.labels.empty())
+    throw FileError(file, "has no field 'label'");
+  if (field == PcdField::Intensity && cloud.intensities.empty())
+    throw FileError(file, "has no field 'intensity'");
+  if (field != PcdField::Intensity && !cloud.labels.empty())
+    return detail::labelsAsIntensities(cloud.labels);
+  return cloud.intensities;
+}
+
+class PcdFiles {
+ public:
+  PcdFiles(const PcdImport& request, ImportSummary& summary)
+      : request_(request), summary_(summary) {}
+
+  Cloud read(const std::string& file) {
+    const PcdCloud raw = readPcd(file, request_.row_policy);
+    report(raw, file);
+    Cloud cloud;
+    cloud.origin = raw.viewpoint;
+    cloud.points.reserve(raw.points.size());
+    for (const Eigen::Vector3d& point : raw.points)
+      cloud.points.push_back((point - cloud.origin).cast<float>());
+    cloud.carried = carriedBy(raw, request_.field, file);
+    return cloud;
+  }
+
+ private:
+  void report(const PcdCloud& raw, const std::string& file) {
+    const auto warn = [&](std::size_t count, const std::string& what) {
+      if (count > 0) summary_.warnings.push_back(file + ": " + std::to_string(count) + " " + what);
+    };
+    warn(raw.irregular_rows, "rows with a wrong number of columns, the first in line " +
+                                 std::to_string(raw.first_irregular_line) + "; left out " +
+                                 std::to_string(raw.skipped_rows) + " of them");
+    warn(raw.invalid_labels, "points whose label is no whole number");
+    warn(raw.trailing_bytes, "bytes after the last point, not read");
+    const auto too_large = std::count_if(raw.labels.begin(), raw.labels.end(), [](auto label) {
+      return label > detail::kLargestLabelInFloat && label != kNoPcdLabel;
+    });
+    warn(static_cast<std::size_t>(too_large),
+         "points whose label is above 2^24, too large to keep");
+  }
+
+  const PcdImport& request_;
+  ImportSummary& summary_;
+};
+
+void append(Cloud& all, const Cloud& part, const std::string& file, const std::string& first) {
+  if (part.origin != all.origin)
+    throw ConfigError(file + ": its VIEWPOINT is not that of " + first +
+                      ", so --single-scan cannot take both; import one scan a file");
+  if (part.carried.empty() != all.carried.empty())
+    throw FileError(file, "differs from " + first + " in having a field 'label' or 'intensity'");
+  all.points.insert(all.points.end(), part.points.begin(), part.points.end());
+  all.carried.insert(all.carried.end(), part.carried.begin(), part.carried.end());
+}
+
+void write(RawlogWriter& log, const Cloud& cloud, std::size_t position, ImportSummary& summary) {
+  const double time = static_cast<double>(position) * detail::kScanPeriod;
+  const mrpt::poses::CPose3D pose(cloud.origin.x(), cloud.origin.y(), cloud.origin.z(), 0, 0, 0);
+  log.write(detail::poseObservation(pose, time));
+  log.write(detail::cloudObservation(cloud.points, cloud.carried, time, "cloud"));
+  ++summary.scans;
+  summary.points += cloud.points.size();
+}
+
+}  // namespace
+
+ImportSummary importPcd(const PcdImport& request, const std::string& rawlog,
+                        const ImportProgress& progress) {
+  const auto files = expand(request.files);
+  if (files.empty()) throw ConfigError("no PCD file given");
+  const auto chosen = detail::choose(request.selection, files.front(), files.size());
+  RawlogWriter log(rawlog);
+  ImportSummary summary;
+  PcdFiles reader(request, summary);
+  std::optional<Cloud> all;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const std::string& file = files[chosen[i]];
+    Cloud cloud = reader.read(file);
+    if (!request.single_scan)
+      write(log, cloud, chosen[i], summary);
+    else if (!all)
+      all = std::move(cloud);
+    else
+      append(*all, cloud, file, files[chosen.front()]);
+    if (progress) progress(i + 1, chosen.size());
+  }
+  if (all) write(log, *all, 0, summary);
+  log.commit();
+  return summary;
+}
+
+}  // namespace csom
