@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line of this process, as one would type it again.
+#include "CommandLine.h"
+
+#include <fstream>
+
+namespace csom {
+namespace {
+
+std::string quoted(const std::string& word) {
+  constexpr char kPlain[] =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:=,+@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+}  // namespace
+
+std::string commandLine() {
+  std::ifstream file("/proc/self/cmdline");
+  std::string line, word;
+  while (std::getline(file, word, '\0')) line += (line.empty() ? "" : " ") + quoted(word);
+  return line;
+}
+
+}  // namespace csom

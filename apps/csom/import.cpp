@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// csom import: data sets become rawlogs.
+#include <csom/rawlog/ImportKittiRaw.h>
+#include <csom/rawlog/ImportPcd.h>
+#include <csom/rawlog/ImportSemanticKitti.h>
+
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include "Progress.h"
+#include "commands.h"
+
+namespace csom {
+namespace {
+
+struct CommonArguments {
+  std::string output;
+  std::string scans;
+  std::size_t every = 1;
+
+  ScanSelection selection() const { return ScanSelection::parse(scans, every); }
+};
+
+void addCommonOptions(CLI::App& command, CommonArguments& arguments) {
+  command.add_option("-o,--output", arguments.output, "Rawlog to write (gz-compressed)")
+      ->required();
+  command.add_option("--scans", arguments.scans, "a:b takes the scans a to b-1, counted from 0");
+  command.add_option("--every", arguments.every, "Takes only every N-th of them");
+}
+
+ImportProgress shownBy(Progress& progress) {
+  return [&progress](std::size_t done, std::size_t total) { progress.update(done, total); };
+}
+
+void printSummary(const ImportSummary& summary, const std::string& rawlog) {
+  for (const std::string& warning : summary.warnings)
+    std::fprintf(stderr, "csom: warning: %s\n", warning.c_str());
+  std::printf("%s: %s scans, %s points", rawlog.c_str(), groupedDigits(summary.scans).c_str(),
+              groupedDigits(summary.points).c_str());
+  if (summary.images > 0) std::printf(", %s images", groupedDigits(summary.images).c_str());
+  std::printf("\n");
+}
+
+void addSemanticKitti(CLI::App& import_command) {
+  struct Arguments : CommonArguments {
+    SemanticKittiImport request;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = import_command.add_subcommand(
+      "semantickitti", "A sequence of SemanticKITTI: velodyne/, poses.txt, calib.txt and labels");
+  command->add_option("DIR", arguments->request.folder, "Folder of the sequence")->required();
+  command->add_option("--labels", arguments->request.labels,
+                      "labels | predictions | FOLDER of *.label files; without it points carry "
+                      "their reflectance");
+  addCommonOptions(*command, *arguments);
+  command->footer(
+      "Example:\n"
+      "  csom import semantickitti sequences/08 --labels predictions -o k.rawlog");
+  command->callback([arguments] {
+    arguments->request.selection = arguments->selection();
+    Progress progress("importing");
+    printSummary(importSemanticKitti(arguments->request, arguments->output, shownBy(progress)),
+                 arguments->output);
+  });
+}
+
+void addKittiRaw(CLI::App& import_command) {
+  struct Arguments : CommonArguments {
+    KittiRawImport request;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = import_command.add_subcommand(
+      "kitti-raw", "A drive of the KITTI raw data: velodyne_points/, image_00/ to image_03/");
+  command->add_option("DIR", arguments->request.folder, "Folder of the drive")->required();
+  command->add_option("--calib", arguments->request.calibration,
+                      "Folder of calib_*.txt (default: DIR/calib, DIR, or a folder above it)");
+  command->add_flag("--embed-images", arguments->request.embed_images,
+                    "Images into the rawlog, as JPEG, instead of files beside it");
+  addCommonOptions(*command, *arguments);
+  command->footer(
+      "The data set has no poses: give csom map a trajectory with --poses.\n"
+      "Example:\n"
+      "  csom import kitti-raw 2011_09_26_drive_0001_sync --scans 0:50 -o raw.rawlog");
+  command->callback([arguments] {
+    arguments->request.selection = arguments->selection();
+    Progress progress("importing");
+    printSummary(importKittiRaw(arguments->request, arguments->output, shownBy(progress)),
+                 arguments->output);
+  });
+}
+
+void addPcd(CLI::App& import_command) {
+  struct Arguments : CommonArguments {
+    PcdImport request;
+  };
+  static const std::map<std::string, PcdField> kFields{
+      {"auto", PcdField::Auto}, {"label", PcdField::Label}, {"intensity", PcdField::Intensity}};
+  static const std::map<std::string, PcdRowPolicy> kPolicies{
+      {"refuse", PcdRowPolicy::Refuse},
+      {"skip", PcdRowPolicy::SkipRow},
+      {"ignore-extra", PcdRowPolicy::IgnoreExtra}};
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = import_command.add_subcommand(
+      "pcd", "Point clouds in PCD files, ascii or binary, one scan a file");
+  command->add_option("FILE", arguments->request.files, "PCD files, or folders of them")
+      ->required();
+  command->add_flag("--single-scan", arguments->request.single_scan, "All files are one scan");
+  command
+      ->add_option("--labels", arguments->request.field,
+                   "Field that holds the class: label | intensity | auto (label if there)")
+      ->transform(CLI::CheckedTransformer(kFields))
+      ->option_text("FIELD");
+  command
+      ->add_option("--irregular-rows", arguments->request.row_policy,
+                   "Rows with a wrong number of columns: refuse the file (default) | skip the "
+                   "row | ignore-extra columns")
+      ->transform(CLI::CheckedTransformer(kPolicies))
+      ->option_text("POLICY");
+  addCommonOptions(*command, *arguments);
+  command->footer(
+      "VIEWPOINT is the position of the sensor; points are in the frame of the map.\n"
+      "Examples:\n"
+      "  csom import pcd scans/*.pcd -o scans.rawlog\n"
+      "  csom import pcd room/ --single-scan -o room.rawlog");
+  command->callback([arguments] {
+    arguments->request.selection = arguments->selection();
+    Progress progress("importing");
+    printSummary(importPcd(arguments->request, arguments->output, shownBy(progress)),
+                 arguments->output);
+  });
+}
+
+}  // namespace
+
+void addImportCommand(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("import", "Turn a data set into a rawlog");
+  command->require_subcommand(1);
+  addSemanticKitti(*command);
+  addKittiRaw(*command);
+  addPcd(*command);
+}
+
+}  // namespace csom

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// csom map: rawlogs become a map and a report.
+#include <csom/core/Error.h>
+#include <csom/io/MapFile.h>
+#include <csom/io/OutputFile.h>
+#include <csom/rawlog/MappingRun.h>
+#include <csom/report/MapFigures.h>
+#include <csom/report/Report.h>
+#include <csom/report/RunRecord.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "CommandLine.h"
+#include "OutputFolder.h"
+#include "Progress.h"
+#include "commands.h"
+
+namespace csom {
+namespace {
+
+struct MapArguments {
+  std::vector<std::string> logs;
+  std::string config;
+  std::string output;
+  std::string poses;
+  std::optional<int> threads;
+  std::string simplemap;
+  bool no_html = false;
+  bool json = false;
+};
+
+MappingRequest requestOf(const MapArguments& arguments) {
+  MappingRequest request;
+  request.logs = arguments.logs;
+  request.config_file = arguments.config;
+  if (!arguments.poses.empty()) request.poses = PoseChoice::parse(arguments.poses);
+  request.threads = arguments.threads;
+  request.keep_key_frames = !arguments.simplemap.empty();
+  return request;
+}
+
+MappingResult mapWithProgress(const MappingRequest& request) {
+  Progress progress("mapping");
+  return mapLogs(request, [&](const MappingProgress& now) {
+    progress.update(now.entries_done, now.entries, groupedDigits(now.scans) + " scans");
+  });
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string poseSourcesOf(const MappingResult& result) {
+  std::vector<std::string> names;
+  for (const MappedLog& log : result.logs) {
+    const std::string name = log.poses.toString();
+    if (names.empty() || names.back() != name) names.push_back(name);
+  }
+  return joined(names);
+}
+
+std::vector<Parameter> parametersOf(const CSemanticContinuousMap& map) {
+  std::vector<Parameter> parameters = parametersOf(map.map().options());
+  const auto& labels = map.insertionOptions;
+  parameters.push_back(
+      {"point_labels", toString(labels.point_labels), "", "none | intensity | color"});
+  parameters.push_back(
+      {"unlabelled_class", labels.unlabelled_class, "", "class of points without a label"});
+  parameters.push_back({"scan_2d_class", labels.scan_2d_class, "", "class of 2-D scans"});
+  return parameters;
+}
+
+RunRecord recordOf(const MapArguments& arguments, const MappingResult& result, double seconds) {
+  RunRecord record;
+  record.program_version = CSOM_VERSION;
+  record.command = commandLine();
+  record.inputs = arguments.logs;
+  record.config_file = arguments.config;
+  record.parameters = parametersOf(*result.map);
+  record.pose_source = poseSourcesOf(result);
+  record.label_set = result.map->labels().name();
+  record.observations_read = result.observations_read;
+  const auto& scans = result.map->scans();
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    record.scans.push_back({scans[i], result.insert_ms.at(i)});
+  for (const auto& [what, count] : result.refused)
+    record.refused.push_back({what.first, what.second, count});
+  record.warnings = result.warnings;
+  record.wall_seconds = seconds;
+  return record;
+}
+
+MapDocument documentOf(const RunRecord& record, const MappingResult& result) {
+  MapDocument document = result.map->document();
+  document.meta["created_by"] = "csom " + record.program_version;
+  document.meta["command"] = record.command;
+  document.meta["rawlog"] = joined(record.inputs);
+  document.meta["poses"] = record.pose_source;
+  return document;
+}
+
+void printSummary(const RunRecord& record, const MapFigures& figures, const OutputFolder& folder,
+                  bool html) {
+  const ScanReport sum = totals(record);
+  std::printf("scans     %s with %s points, poses: %s\n",
+              groupedDigits(record.scans.size()).c_str(), groupedDigits(sum.points).c_str(),
+              record.pose_source.c_str());
+  std::printf("rejected  %s points, %s observations (reasons in run.json)\n",
+              groupedDigits(sum.rejectedTotal()).c_str(),
+              groupedDigits(record.observations_read - record.scans.size()).c_str());
+  std::printf("map       %s voxels known, %s occupied, %.1f MB: %s\n",
+              groupedDigits(figures.known_voxels).c_str(),
+              groupedDigits(figures.occupied_voxels).c_str(),
+              static_cast<double>(figures.memory_bytes) / 1e6, folder.file("map.csom").c_str());
+  std::printf("time      %.2f s\n", record.wall_seconds);
+  std::printf("report    %s\n", folder.file(html ? "report.html" : "run.json").c_str());
+}
+
+void runMap(const MapArguments& arguments) {
+  const MappingRequest request = requestOf(arguments);
+  OutputFolder folder(arguments.output);
+  std::optional<OutputFile> simplemap;
+  if (!arguments.simplemap.empty()) simplemap.emplace(arguments.simplemap);
+
+  const auto start = std::chrono::steady_clock::now();
+  const MappingResult result = mapWithProgress(request);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  for (const std::string& warning : result.warnings)
+    std::fprintf(stderr, "csom: warning: %s\n", warning.c_str());
+
+  const RunRecord record = recordOf(arguments, result, elapsed.count());
+  const MapDocument document = documentOf(record, result);
+  if (simplemap) {
+    if (!result.key_frames.saveToFile(simplemap->path()))
+      throw FileError(arguments.simplemap, "cannot be written");
+    simplemap->commit();
+  }
+  folder.keep();
+  saveMap(document, folder.file("map.csom"));
+  ReportOptions report;
+  report.html = !arguments.no_html;
+  writeReport(record, document, folder.path(), report);
+
+  const MapFigures figures = figuresOf(document);
+  if (arguments.json)
+    std::printf("%s\n", toJson(record, figures).c_str());
+  else
+    printSummary(record, figures, folder, report.html);
+}
+
+}  // namespace
+
+void addMapCommand(CLI::App& program) {
+  auto arguments = std::make_shared<MapArguments>();
+  CLI::App* command = program.add_subcommand("map", "Build a semantic map from rawlogs");
+  command
+      ->add_option("LOG", arguments->logs, "Rawlogs or simplemaps (.gz or not), one after another")
+      ->required();
+  command
+      ->add_option("-c,--config", arguments->config, "Ini file with a section [MappingApplication]")
+      ->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Folder for map.csom, run.json and report.html; created if missing")
+      ->required();
+  command->add_option("--poses", arguments->poses,
+                      "odometry | robot-pose[:LABEL] | tum:FILE | kitti:FILE | simplemap:FILE "
+                      "(default: the robot poses of the log, else its odometry; a simplemap has "
+                      "poses of its own)");
+  command->add_option(
+      "--threads", arguments->threads,
+      "Threads, 0 = all processors; does not change the map (default: as in the ini)");
+  command->add_option("--write-simplemap", arguments->simplemap,
+                      "Also write the observations with their poses as a simplemap, of which "
+                      "observations2map makes the same map");
+  command->add_flag("--no-html", arguments->no_html, "Write no report.html");
+  command->add_flag("--json", arguments->json, "Print the run record as JSON instead of a summary");
+  command->footer(
+      "Examples:\n"
+      "  csom map drive.rawlog -c config/campus.ini -o out\n"
+      "  csom map a.rawlog b.rawlog.gz -c my.ini -o out --poses tum:trajectory.txt\n"
+      "  csom map slam.simplemap -c my.ini -o out --threads 0 --json");
+  command->callback([arguments] { runMap(*arguments); });
+}
+
+}  // namespace csom
