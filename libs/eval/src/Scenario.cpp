@@ -277,8 +277,8 @@ Scenario loadScenario(const std::string& file) {
 
   const auto seed = static_cast<std::uint64_t>(
       reader.integer("seed", 0, std::numeric_limits<long long>::max(), 1));
-  Scenario scenario{World(labels, std::move(solids)), path, readSensors(reader, file), odometry,
-                    readTruth(reader.map("truth")),   seed};
+  Scenario scenario{file,     World(labels, std::move(solids)), path, readSensors(reader, file),
+                    odometry, readTruth(reader.map("truth")),   seed};
   reader.finish();
   return scenario;
 }

@@ -8,8 +8,9 @@
 
 namespace csom {
 
-RawlogWriter::RawlogWriter(const std::string& file) : file_(file), output_(file) {
-  if (!stream_.open(output_.path())) throw FileError(file, "cannot be opened for writing");
+RawlogWriter::RawlogWriter(const std::string& file, int compression) : file_(file), output_(file) {
+  if (!stream_.open(output_.path(), compression))
+    throw FileError(file, "cannot be opened for writing");
 }
 
 void RawlogWriter::write(const mrpt::serialization::CSerializable& entry) {

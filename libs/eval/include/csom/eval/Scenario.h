@@ -91,6 +91,7 @@ struct TruthRegion {
 };
 
 struct Scenario {
+  std::string file;  ///< where it came from, for messages
   World world;
   RobotPath path;
   std::vector<SensorModel> sensors;

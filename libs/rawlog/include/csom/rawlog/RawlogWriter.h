@@ -14,7 +14,8 @@ namespace csom {
 /// its place. The same entries give the same bytes. All members throw FileError.
 class RawlogWriter {
  public:
-  explicit RawlogWriter(const std::string& file);
+  /// `compression`: zlib's level, 1 (fastest, MRPT's own) to 9 (smallest).
+  explicit RawlogWriter(const std::string& file, int compression = 1);
 
   void write(const mrpt::serialization::CSerializable& entry);
   void commit();

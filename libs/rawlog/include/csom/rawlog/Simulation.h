@@ -5,7 +5,7 @@
 #include <csom/eval/Scenario.h>
 
 #include <cstddef>
-#include <cstdint>
+#include <functional>
 #include <string>
 
 namespace csom {
@@ -32,10 +32,14 @@ struct SimulationSummary {
   double length = 0;             ///< [m]
 };
 
+/// Called after each frame with the number done and of all.
+using SimulationProgress = std::function<void(std::size_t done, std::size_t total)>;
+
 /// Drives through `scenario` and writes what the sensors saw to `rawlog_file` (gz-compressed; first
 /// to a file beside it, which then takes its place). The same scenario gives the same bytes. Throws
 /// FileError if a file cannot be written, ConfigError if a sensor is inside a solid.
 SimulationSummary simulateRawlog(const Scenario& scenario, const std::string& rawlog_file,
-                                 const SimulationOptions& options = {});
+                                 const SimulationOptions& options = {},
+                                 const SimulationProgress& progress = {});
 
 }  // namespace csom
