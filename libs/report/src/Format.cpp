@@ -39,8 +39,12 @@ std::string formatNumber(double value) {
   if (!std::isfinite(value)) return "–";
   if (value == 0) return "0";
   const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
-  const double unit = std::pow(10.0, magnitude - 2);
-  if (magnitude >= 2) return fixed(std::round(value / unit) * unit, 0);
+  // Digits before the point are rounded here, those after it by printf; 1e15 is past all figures.
+  if (magnitude >= 2 && magnitude < 15) {
+    const double unit = std::pow(10.0, magnitude - 2);
+    return fixed(std::round(value / unit) * unit, 0);
+  }
+  if (magnitude >= 15) return fixed(value, 0);
   return withoutTrailingZeros(fixed(value, std::min(2 - magnitude, 12)));
 }
 

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The page: well-formed, self-contained, safe, and saying what happened.
+#include <csom/report/HtmlReport.h>
+#include <csom/report/TopView.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "Html.h"
+#include "SampleMaps.h"
+
+namespace csom {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::string pageOf(const RunRecord& record, const MapDocument& document) {
+  return htmlReport(record, figuresOf(document), topViewPng(document));
+}
+
+std::string samplePage() {
+  return pageOf(test::sampleRecord(), test::mapOf({{{0, 0, 0}, 1}, {{1, 0, 0}, 0}}));
+}
+
+/// Opening and closing tags must match, as in XML, but for the elements that HTML never closes.
+void expectBalanced(const std::string& page) {
+  static const std::set<std::string> kVoid{"meta", "img"};
+  static const std::regex kTag("<(/?)([a-zA-Z0-9]+)[^>]*>");
+  std::vector<std::string> open;
+  for (std::sregex_iterator it(page.begin(), page.end(), kTag), end; it != end; ++it) {
+    const std::string name = (*it)[2];
+    if (kVoid.count(name) != 0) continue;
+    if ((*it)[1].length() == 0) {
+      open.push_back(name);
+      continue;
+    }
+    ASSERT_FALSE(open.empty()) << "</" << name << "> closes nothing";
+    ASSERT_EQ(open.back(), name);
+    open.pop_back();
+  }
+  EXPECT_TRUE(open.empty()) << "<" << (open.empty() ? "" : open.back()) << "> is never closed";
+}
+
+TEST(HtmlReportTest, IsBalancedWithAndWithoutContent) {
+  expectBalanced(samplePage());
+  expectBalanced(htmlReport({}, {}, {}));
+}
+
+TEST(HtmlReportTest, NeedsNothingFromOutside) {
+  const std::string page = samplePage();
+  EXPECT_THAT(page, Not(HasSubstr("http:")));
+  EXPECT_THAT(page, Not(HasSubstr("https:")));
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("<link")));
+  EXPECT_THAT(page, Not(HasSubstr("@import")));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+}
+
+TEST(HtmlReportTest, ThePictureIsInsideAndHasAnAltText) {
+  const MapDocument document = test::mapOf({{{0, 0, 0}, 1}});
+  const std::vector<std::uint8_t> png = topViewPng(document);
+  const std::string page = htmlReport(test::sampleRecord(), figuresOf(document), png);
+  EXPECT_THAT(page, HasSubstr("src=\"data:image/png;base64," + encodeBase64(png) + "\""));
+  EXPECT_THAT(page, HasSubstr("alt=\"The map seen from above"));
+  EXPECT_THAT(htmlReport(test::sampleRecord(), figuresOf(document), {}), Not(HasSubstr("<img")));
+}
+
+TEST(HtmlReportTest, NoTextOfARunBecomesMarkup) {
+  const std::string attack = "\"'><script>alert(1)</script>&";
+  RunRecord record = test::sampleRecord();
+  record.program_version = record.command = record.config_file = attack;
+  record.pose_source = record.label_set = attack;
+  record.inputs = {attack, attack};
+  record.parameters = {{attack, attack, attack, attack}};
+  record.refused = {{attack, attack, 1}};
+  record.warnings = {attack};
+  const LabelSet labels = LabelSet::fromYaml(R"(
+name: hostile
+classes:
+  - {id: 0, name: free, color: [255, 255, 255]}
+  - {id: 1, name: "\"'><script>alert(1)</script>&", color: [1, 2, 3]}
+  - {id: 2, name: "<script>absent</script>", color: [3, 2, 1]}
+)",
+                                             "hostile labels");
+  const std::string page = pageOf(record, test::mapOf({{{0, 0, 0}, 1}}, 1.0, labels));
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, HasSubstr("&quot;&#39;&gt;&lt;script&gt;alert(1)&lt;/script&gt;&amp;"));
+  EXPECT_THAT(page, HasSubstr("&lt;script&gt;absent&lt;/script&gt;"));
+  expectBalanced(page);
+}
+
+TEST(HtmlReportTest, SaysInWordsWhatHappened) {
+  const std::string page = samplePage();
+  EXPECT_THAT(page, HasSubstr("<h1>Semantic map of my drive.rawlog</h1>"));
+  EXPECT_THAT(page, HasSubstr("2 observations with 2,000 points went into the map in 12.3 s."));
+  EXPECT_THAT(page, HasSubstr("50 points (2.5 %) did not go into the map"));
+  EXPECT_THAT(page, HasSubstr("50 were farther from the sensor than <code>max_range</code>"));
+  EXPECT_THAT(page, HasSubstr("5 observations of 7 did not reach the map"));
+  EXPECT_THAT(page, HasSubstr("5 × <code>CObservationGPS</code>: no range data"));
+  EXPECT_THAT(page, HasSubstr("unknown key &#39;resolutoin&#39;"));
+  EXPECT_THAT(page, HasSubstr("csom map &#39;my drive.rawlog&#39; -o out"));
+  EXPECT_THAT(page, HasSubstr("robot-pose:GT"));
+}
+
+TEST(HtmlReportTest, ListsThePresentClassesAndNamesTheAbsentOnes) {
+  const std::string page = samplePage();
+  EXPECT_THAT(page, HasSubstr("background:#c80000\"></span>ground</td><td>1</td>"));
+  EXPECT_THAT(page, HasSubstr("Not in this map: tree, wall, ceiling."));
+}
+
+TEST(HtmlReportTest, ShowsTheTimesOfEveryStage) {
+  const std::string page = samplePage();
+  EXPECT_THAT(page, HasSubstr("kernel inference"));
+  EXPECT_THAT(page, HasSubstr("<td>10</td><td>10</td><td>30</td><td>30</td>"));
+}
+
+TEST(HtmlReportTest, ShowsEveryParameterWithItsUnitAndMeaning) {
+  const std::string page = samplePage();
+  const Options options;
+  visitOptions(options, [&](const char* name, const auto&, const char*, const char* help) {
+    EXPECT_THAT(page, HasSubstr(std::string("<code>") + name + "</code>"));
+    EXPECT_THAT(page, HasSubstr(escapeHtml(help)));
+  });
+  EXPECT_THAT(page, HasSubstr(">0.2 m</td>"));
+}
+
+TEST(HtmlReportTest, AnEmptyMapIsExplained) {
+  const std::string page = pageOf(test::sampleRecord(), test::mapOf({}));
+  EXPECT_THAT(page, HasSubstr("The map is empty"));
+  expectBalanced(page);
+}
+
+TEST(HtmlReportTest, AFloodOfWarningsIsCutAndCounted) {
+  RunRecord record = test::sampleRecord();
+  record.warnings.assign(10'000, "the same again");
+  const std::string page = pageOf(record, test::mapOf({}));
+  EXPECT_THAT(page, HasSubstr("10,000 warnings"));
+  EXPECT_THAT(page, HasSubstr("9,800 more are in <code>run.json</code>"));
+  EXPECT_LT(page.size(), 200'000u);
+}
+
+TEST(HtmlTest, Base64MatchesTheVectorsOfRfc4648) {
+  const auto encoded = [](const std::string& text) {
+    return encodeBase64(std::vector<std::uint8_t>(text.begin(), text.end()));
+  };
+  EXPECT_EQ(encoded(""), "");
+  EXPECT_EQ(encoded("f"), "Zg==");
+  EXPECT_EQ(encoded("fo"), "Zm8=");
+  EXPECT_EQ(encoded("foo"), "Zm9v");
+  EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(encoded("\xff\xfe\xfd"), "//79");
+}
+
+TEST(HtmlTest, EscapingKeepsTextAndRemovesControlCharacters) {
+  EXPECT_EQ(escapeHtml("a & b"), "a &amp; b");
+  EXPECT_EQ(escapeHtml(std::string("a\0b\x1b[1m", 7)), "a b [1m");
+  EXPECT_EQ(escapeHtml("naïve"), "naïve");
+}
+
+}  // namespace
+}  // namespace csom

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// run.json: complete, exact, and valid whatever the record holds.
+#include <csom/report/RunRecord.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "SampleMaps.h"
+
+namespace csom {
+namespace {
+
+using nlohmann::json;
+
+json parsed(const RunRecord& record, const MapDocument& document = test::mapOf({})) {
+  return json::parse(toJson(record, figuresOf(document)));
+}
+
+TEST(RunRecordTest, EveryOptionIsAParameterOfItsOwnType) {
+  Options options;
+  options.resolution = 0.1;
+  options.rvfm = false;
+  options.method = Method::SBki;
+  RunRecord record;
+  record.parameters = parametersOf(options);
+
+  std::set<std::string> names;
+  visitOptions(options, [&](const char* name, const auto&, auto...) { names.insert(name); });
+  const json parameters = parsed(record)["parameters"];
+  EXPECT_EQ(parameters.size(), names.size());
+  for (const std::string& name : names) EXPECT_TRUE(parameters.contains(name)) << name;
+  EXPECT_EQ(parameters["resolution"], 0.1);
+  EXPECT_TRUE(parameters["rvfm"].is_boolean());
+  EXPECT_EQ(parameters["rvfm"], false);
+  EXPECT_TRUE(parameters["block_depth"].is_number_integer());
+  EXPECT_EQ(parameters["method"], "s-bki");
+}
+
+TEST(RunRecordTest, ParametersReadLikeAnIniFile) {
+  EXPECT_EQ(toText({"a", 0.2, "m", ""}), "0.2");
+  EXPECT_EQ(toText({"a", true, "", ""}), "on");
+  EXPECT_EQ(toText({"a", std::int64_t{-3}, "", ""}), "-3");
+  EXPECT_EQ(toText({"a", std::string("text"), "", ""}), "text");
+}
+
+TEST(RunRecordTest, ScansCarryTimestampPointsAndTimes) {
+  const json scans = parsed(test::sampleRecord())["scans"];
+  ASSERT_EQ(scans.size(), 2u);
+  EXPECT_EQ(scans[0]["timestamp"], 1700000000.125);
+  EXPECT_EQ(scans[0]["sensor_label"], "velodyne");
+  EXPECT_EQ(scans[0]["observation_class"], "CObservationVelodyneScan");
+  EXPECT_EQ(scans[0]["origin"], json({1, 2, 3}));
+  EXPECT_EQ(scans[0]["points"], 1000);
+  EXPECT_EQ(scans[0]["rejected"], 25);
+  EXPECT_EQ(scans[0]["insert_ms"], 10);
+  EXPECT_EQ(scans[1]["insert_ms"], 30);
+  EXPECT_EQ(scans[1]["prepare_ms"], 2);
+  EXPECT_EQ(scans[1]["infer_ms"], 5);
+  EXPECT_EQ(scans[1]["commit_ms"], 1);
+}
+
+TEST(RunRecordTest, TotalsAddUp) {
+  const json run = parsed(test::sampleRecord());
+  EXPECT_EQ(run["totals"]["observations_read"], 7);
+  EXPECT_EQ(run["totals"]["observations_inserted"], 2);
+  EXPECT_EQ(run["totals"]["points"], 2000);
+  EXPECT_EQ(run["totals"]["rejected"], 50);
+  EXPECT_EQ(run["totals"]["rejects"][toString(RejectReason::TooFar)], 50);
+  EXPECT_EQ(run["totals"]["rejects"].size(), kRejectReasons);
+  EXPECT_EQ(run["refused"],
+            json::parse(R"([{"observation_class": "CObservationGPS", "reason": "no range data",
+                             "count": 5}])"));
+  EXPECT_EQ(run["warnings"].size(), 1u);
+}
+
+TEST(RunRecordTest, TellsHowTheRunCameAbout) {
+  const json run = parsed(test::sampleRecord());
+  EXPECT_EQ(run["program_version"], "1.2.3");
+  EXPECT_EQ(run["command"], "csom map 'my drive.rawlog' -o out");
+  EXPECT_EQ(run["inputs"], json({"data/my drive.rawlog"}));
+  EXPECT_EQ(run["config_file"], "config/drive.ini");
+  EXPECT_EQ(run["pose_source"], "robot-pose:GT");
+  EXPECT_EQ(run["label_set"], "sample");
+  EXPECT_EQ(run["wall_seconds"], 12.34);
+}
+
+TEST(RunRecordTest, TimingHasOrderStatisticsOfEveryStage) {
+  RunRecord record = test::sampleRecord();
+  record.scans.resize(1);
+  for (int i = 1; i <= 100; ++i) {
+    record.scans.push_back(record.scans.front());
+    record.scans.back().insert_ms = i;
+  }
+  record.scans.erase(record.scans.begin());
+  const json insert = parsed(record)["timing_ms"]["insert"];
+  EXPECT_EQ(insert["min"], 1);
+  EXPECT_EQ(insert["median"], 50);
+  EXPECT_EQ(insert["p95"], 95);
+  EXPECT_EQ(insert["max"], 100);
+  EXPECT_EQ(insert["total"], 5050);
+  EXPECT_EQ(parsed(record)["timing_ms"].size(), 4u);
+}
+
+TEST(RunRecordTest, DescribesTheMap) {
+  const MapDocument document = test::mapOf({{{0, 0, 0}, 1}, {{1, 0, 0}, 0}}, 0.5);
+  const json map = parsed(test::sampleRecord(), document)["map"];
+  EXPECT_EQ(map["resolution"], 0.5);
+  EXPECT_EQ(map["known_voxels"], 2);
+  EXPECT_EQ(map["occupied_voxels"], 1);
+  EXPECT_EQ(map["free_voxels"], 1);
+  EXPECT_EQ(map["bounds"]["min"], json({0, 0, 0}));
+  EXPECT_EQ(map["bounds"]["max"], json({1, 0.5, 0.5}));
+  EXPECT_EQ(map["digest"], mapDigest(document.map));
+  EXPECT_EQ(map["classes"][1]["name"], "ground");
+  EXPECT_EQ(map["classes"][1]["voxels"], 1);
+  EXPECT_EQ(map["classes"][1]["volume_m3"], 0.125);
+  EXPECT_EQ(map["classes"][1]["color"], json({200, 0, 0}));
+}
+
+TEST(RunRecordTest, AnEmptyRunIsValidJson) {
+  const json run = parsed(RunRecord{});
+  EXPECT_EQ(run["scans"], json::array());
+  EXPECT_TRUE(run["map"]["bounds"].is_null());
+  EXPECT_TRUE(run["timing_ms"].empty());
+}
+
+TEST(RunRecordTest, NumbersThatAreNotFiniteBecomeNull) {
+  RunRecord record = test::sampleRecord();
+  record.wall_seconds = std::numeric_limits<double>::quiet_NaN();
+  record.scans[0].record.timestamp = std::numeric_limits<double>::infinity();
+  const json run = parsed(record);
+  EXPECT_TRUE(run["wall_seconds"].is_null());
+  EXPECT_TRUE(run["scans"][0]["timestamp"].is_null());
+}
+
+TEST(RunRecordTest, NumbersAreTheShortestThatReadBack) {
+  RunRecord record;
+  record.wall_seconds = 0.1;
+  EXPECT_NE(toJson(record, {}).find("\"wall_seconds\": 0.1,"), std::string::npos);
+  record.wall_seconds = 1.0 / 3.0;
+  EXPECT_EQ(parsed(record)["wall_seconds"].get<double>(), 1.0 / 3.0);
+}
+
+TEST(RunRecordTest, BytesThatAreNotUtf8AreReplaced) {
+  RunRecord record;
+  record.inputs = {"caf\xe9.rawlog"};
+  EXPECT_EQ(parsed(record)["inputs"][0], "caf\xEF\xBF\xBD.rawlog");
+}
+
+}  // namespace
+}  // namespace csom

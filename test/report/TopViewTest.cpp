@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The picture of a map from above, pixel by pixel where it matters.
+#include <csom/report/TopView.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+#include "SampleMaps.h"
+
+namespace csom {
+namespace {
+
+cv::Mat drawn(const MapDocument& document, const TopViewOptions& options = {}) {
+  return cv::imdecode(topViewPng(document, options), cv::IMREAD_COLOR);
+}
+
+struct Centroid {
+  double x = 0;
+  double y = 0;
+  int pixels = 0;
+};
+
+/// Where the pixels of one saturated colour are, the legend on the right excluded.
+Centroid find(const cv::Mat& image, int bgr_channel) {
+  Centroid found;
+  const int right = 20 + 300;  // margin and the smallest panel: the maps of these tests are small
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < std::min(right, image.cols); ++x) {
+      const auto& pixel = image.at<cv::Vec3b>(y, x);
+      int others = 0;
+      for (int c = 0; c < 3; ++c)
+        if (c != bgr_channel) others = std::max(others, int(pixel[c]));
+      if (pixel[bgr_channel] > 120 && others < 90) {
+        found.x += x;
+        found.y += y;
+        ++found.pixels;
+      }
+    }
+  }
+  if (found.pixels > 0) {
+    found.x /= found.pixels;
+    found.y /= found.pixels;
+  }
+  return found;
+}
+constexpr int kBlue = 0;
+constexpr int kGreen = 1;
+constexpr int kRed = 2;
+
+TEST(TopViewTest, AnEmptyMapGivesAPicture) {
+  const cv::Mat image = drawn(test::mapOf({}));
+  ASSERT_FALSE(image.empty());
+  double darkest = 255;
+  cv::minMaxLoc(image.reshape(1), &darkest, nullptr);
+  EXPECT_LT(darkest, 128) << "it should say in words that the map is empty";
+}
+
+TEST(TopViewTest, ASingleVoxelIsVisible) {
+  const cv::Mat image = drawn(test::mapOf({{{7, -3, 2}, 2}}));
+  EXPECT_GE(find(image, kGreen).pixels, 100);
+}
+
+TEST(TopViewTest, XPointsRightAndYUp) {
+  const cv::Mat image = drawn(test::mapOf({{{0, 0, 0}, 1}, {{6, 0, 0}, 2}, {{0, 6, 0}, 3}}));
+  const Centroid origin = find(image, kRed);
+  const Centroid along_x = find(image, kGreen);
+  const Centroid along_y = find(image, kBlue);
+  ASSERT_GT(std::min({origin.pixels, along_x.pixels, along_y.pixels}), 0);
+  EXPECT_GT(along_x.x, origin.x + 50);
+  EXPECT_NEAR(along_x.y, origin.y, 1);
+  EXPECT_LT(along_y.y, origin.y - 50);
+  EXPECT_NEAR(along_y.x, origin.x, 1);
+}
+
+TEST(TopViewTest, TheTopmostOccupiedVoxelOfAColumnIsShown) {
+  const cv::Mat image = drawn(test::mapOf({{{0, 0, 3}, 2}, {{0, 0, 0}, 1}, {{0, 0, 5}, 0}}));
+  EXPECT_GT(find(image, kGreen).pixels, 0);
+  EXPECT_EQ(find(image, kRed).pixels, 0);
+}
+
+TEST(TopViewTest, CeilingsAreLookedThrough) {
+  const MapDocument room = test::mapOf({{{0, 0, 0}, 1}, {{0, 0, 3}, 4}});
+  EXPECT_GT(find(drawn(room), kRed).pixels, 0);
+  TopViewOptions with_ceiling;
+  with_ceiling.hidden_classes.clear();
+  EXPECT_EQ(find(drawn(room, with_ceiling), kRed).pixels, 0);
+}
+
+TEST(TopViewTest, HighestZCutsByTheCentresOfVoxels) {
+  const MapDocument tower = test::mapOf({{{0, 0, 0}, 1}, {{0, 0, 3}, 2}});
+  TopViewOptions options;
+  options.highest_z = 3.5;
+  EXPECT_GT(find(drawn(tower, options), kGreen).pixels, 0);
+  options.highest_z = 3.4;
+  EXPECT_EQ(find(drawn(tower, options), kGreen).pixels, 0);
+  EXPECT_GT(find(drawn(tower, options), kRed).pixels, 0);
+  options.highest_z = -5;
+  EXPECT_FALSE(drawn(tower, options).empty());
+}
+
+TEST(TopViewTest, HigherVoxelsOfAClassAreLighter) {
+  std::vector<test::LabelledVoxel> steps;
+  for (int x = 0; x < 10; ++x)
+    for (int y = 0; y < 10; ++y) steps.push_back({{x, y, x < 5 ? 0 : 20}, 1});
+  const cv::Mat image = drawn(test::mapOf(steps));
+  // Ten voxels of 24 pixels, centred in the panel.
+  const int middle = 20 + 300 / 2;
+  const int y = 20 + 120;
+  const auto low = image.at<cv::Vec3b>(y, middle - 100);
+  const auto high = image.at<cv::Vec3b>(y, middle + 100);
+  EXPECT_GT(high[kRed] + high[kBlue] + high[kGreen], low[kRed] + low[kBlue] + low[kGreen] + 20);
+}
+
+TEST(TopViewTest, FreeSpaceIsGrayAndUnknownIsWhite) {
+  const cv::Mat image = drawn(test::mapOf({{{0, 0, 0}, 1}, {{2, 0, 0}, 0}}));
+  const int y = 20 + (image.rows - 20 - 84) / 2;
+  const int left = 20 + (300 - 3 * 24) / 2;
+  const auto unknown = image.at<cv::Vec3b>(y, left + 24 + 12);
+  const auto free_space = image.at<cv::Vec3b>(y, left + 2 * 24 + 12);
+  EXPECT_EQ(unknown, cv::Vec3b(255, 255, 255));
+  EXPECT_LT(free_space[0], 250);
+  EXPECT_EQ(free_space[0], free_space[1]);
+  EXPECT_EQ(free_space[1], free_space[2]);
+}
+
+TEST(TopViewTest, ThePictureOfAHugeMapIsBounded) {
+  const std::int32_t far = kMaxVoxelIndex;
+  TopViewOptions options;
+  options.max_pixels = 500;
+  const cv::Mat image =
+      drawn(test::mapOf({{{-far, -far, 0}, 1}, {{far, far, 0}, 2}, {{0, 0, 0}, 3}}), options);
+  EXPECT_LE(image.cols, 500 + 400);
+  EXPECT_LE(image.rows, 500 + 200);
+}
+
+TEST(TopViewTest, LongAndNarrowMapsFit) {
+  std::vector<test::LabelledVoxel> corridor;
+  for (int x = 0; x < 3000; ++x) corridor.push_back({{x, 0, 0}, 1});
+  const cv::Mat image = drawn(test::mapOf(corridor, 0.2));
+  EXPECT_GT(image.cols, 900);
+  EXPECT_LT(image.cols, 1700);
+  EXPECT_LT(image.rows, 600);
+}
+
+TEST(TopViewTest, ManyClassesAndHostileNamesFitIntoTheLegend) {
+  std::string yaml = "name: many\nclasses:\n  - {id: 0, name: free, color: [255, 255, 255]}\n";
+  std::vector<test::LabelledVoxel> voxels;
+  for (int k = 1; k < 200; ++k) {
+    const std::string name = "'" + std::string(200, 'x') + "<é%s" + std::to_string(k) + "'";
+    yaml += "  - {id: " + std::to_string(k) + ", name: " + name + ", color: [9, 9, " +
+            std::to_string(k) + "]}\n";
+    voxels.push_back({{k, 0, 0}, static_cast<ClassId>(k)});
+  }
+  const cv::Mat image = drawn(test::mapOf(voxels, 1.0, LabelSet::fromYaml(yaml, "many")));
+  EXPECT_LT(image.rows, 1000);
+  EXPECT_LT(image.cols, 2000);
+}
+
+TEST(TopViewTest, TheSameMapGivesTheSameBytes) {
+  const MapDocument document = test::mapOf({{{0, 0, 0}, 1}, {{6, 0, 0}, 2}});
+  EXPECT_EQ(topViewPng(document), topViewPng(document));
+}
+
+TEST(TopViewTest, UnreasonableSizesAreRefused) {
+  const MapDocument document = test::mapOf({{{0, 0, 0}, 1}});
+  for (const int pixels : {-1, 0, 63, 4097}) {
+    TopViewOptions options;
+    options.max_pixels = pixels;
+    EXPECT_THROW(topViewPng(document, options), std::invalid_argument) << pixels;
+  }
+}
+
+}  // namespace
+}  // namespace csom
