@@ -3,10 +3,12 @@
 #pragma once
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <cstddef>
+#include <optional>
 
 namespace csom::detail {
 
@@ -19,6 +21,11 @@ void parallelRanges(std::size_t size, int threads, const Work& work) {
     work(std::size_t{0}, size);
     return;
   }
+  // More threads than processors only on demand: TBB refuses them otherwise.
+  std::optional<tbb::global_control> more_threads;
+  if (threads > tbb::this_task_arena::max_concurrency())
+    more_threads.emplace(tbb::global_control::max_allowed_parallelism,
+                         static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : threads);
   arena.execute([&] {
     tbb::parallel_for(

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What must hold for every method: order, threads and shards do not matter; symmetry; subsets.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/RandomScans.h"
+
+namespace csom::test {
+namespace {
+
+class Properties : public testing::TestWithParam<Method> {
+ protected:
+  /// Calls check(random, options, scans) for every random case.
+  template <class Check>
+  void forRandomCases(int scans_per_case, int max_points, Check&& check) {
+    for (int seed = 0; seed < kRandomCases; ++seed) {
+      SCOPED_TRACE("seed " + std::to_string(seed));
+      RandomCase random(static_cast<std::uint64_t>(seed) + 1000);
+      const Options options = random.options(GetParam());
+      std::vector<Scan> scans;
+      for (int i = 0; i < scans_per_case; ++i) scans.push_back(random.scan(options, max_points));
+      check(random, options, scans);
+      if (HasFatalFailure()) return;
+    }
+  }
+  /// The filter may reject every block of a thin scan; most cases must hold something all the same.
+  void countFilled(bool filled) { filled_cases_ += filled ? 1 : 0; }
+  void expectMostlyFilled() const { EXPECT_GT(filled_cases_, kRandomCases * 9 / 10); }
+
+  static SemanticMap mapOf(const Options& options, const std::vector<Scan>& scans) {
+    SemanticMap map(options);
+    for (const Scan& scan : scans) map.insert(scan);
+    return map;
+  }
+
+ private:
+  int filled_cases_ = 0;
+};
+
+TEST_P(Properties, OrderOfScansDoesNotMatter) {
+  forRandomCases(4, 60,
+                 [this](RandomCase& random, const Options& options, std::vector<Scan> scans) {
+                   const std::string expected = bytesOf(mapOf(options, scans));
+                   countFilled(!expected.empty());
+                   std::shuffle(scans.begin(), scans.end(), random.engine());
+                   ASSERT_EQ(bytesOf(mapOf(options, scans)), expected);
+                 });
+  expectMostlyFilled();
+}
+
+TEST_P(Properties, NumberOfThreadsDoesNotMatter) {
+  forRandomCases(2, 80, [](RandomCase&, Options options, const std::vector<Scan>& scans) {
+    const std::string expected = bytesOf(mapOf(options, scans));
+    for (const int threads : {2, 4}) {
+      options.threads = threads;
+      ASSERT_EQ(bytesOf(mapOf(options, scans)), expected) << threads << " threads";
+    }
+  });
+}
+
+TEST_P(Properties, ShardsMergedInAnyOrderAreTheWhole) {
+  forRandomCases(6, 40,
+                 [](RandomCase& random, const Options& options, const std::vector<Scan>& scans) {
+                   const std::string expected = bytesOf(mapOf(options, scans));
+                   std::vector<SemanticMap> shards(3, SemanticMap(options));
+                   for (const Scan& scan : scans)
+                     shards[static_cast<std::size_t>(random.integer(0, 2))].insert(scan);
+                   std::shuffle(shards.begin(), shards.end(), random.engine());
+                   SemanticMap left = shards[0];
+                   left.merge(shards[1]);
+                   left.merge(shards[2]);
+                   ASSERT_EQ(bytesOf(left), expected);
+                   SemanticMap right = shards[1];
+                   right.merge(shards[2]);
+                   SemanticMap all = shards[0];
+                   all.merge(right);
+                   ASSERT_EQ(bytesOf(all), expected);
+                 });
+}
+
+TEST_P(Properties, ShiftByWholeBlocksMovesTheMap) {
+  // Numbers that binary fractions hold exactly: the shifted scan is the same scan, bit for bit.
+  forRandomCases(1, 80, [this](RandomCase& random, Options options, std::vector<Scan> scans) {
+    options.resolution = 0.25;
+    options.ds_resolution = random.oneOf<double>({0, 0.125, 0.25});
+    Scan scan = scans[0];
+    scan.origin = (Eigen::Vector3d(random.real(-4, 4), random.real(-4, 4), random.real(-4, 4)) * 64)
+                      .array()
+                      .round() /
+                  64;
+    for (Eigen::Vector3f& p : scan.points) p = (p * 1024.0F).array().round() / 1024.0F;
+    const int block = options.method == Method::SCsm ? 1 : 1 << (options.block_depth - 1);
+    const VoxelIndex shift{block * random.integer(-50, 50), block * random.integer(-50, 50),
+                           block * random.integer(-50, 50)};
+    Scan moved = scan;
+    moved.origin += Eigen::Vector3d(shift.x, shift.y, shift.z) * options.resolution;
+    const SemanticMap a = mapOf(options, {scan});
+    const SemanticMap b = mapOf(options, {moved});
+    countFilled(!a.empty());
+    ASSERT_EQ(a.knownVoxelCount(), b.knownVoxelCount());
+    a.forEachVoxel([&](const VoxelIndex& v, const DirichletVoxel& voxel) {
+      const DirichletVoxel image = b.voxel({v.x + shift.x, v.y + shift.y, v.z + shift.z});
+      for (int k = 0; k < options.number_of_classes; ++k)
+        ASSERT_EQ(voxel.count(static_cast<ClassId>(k)), image.count(static_cast<ClassId>(k)));
+    });
+  });
+  expectMostlyFilled();
+}
+
+TEST_P(Properties, QuarterTurnTurnsTheMap) {
+  // x' = −y, y' = x: voxel (i, j, k) becomes (−j−1, i, k). Sums run in another order: one quantum.
+  forRandomCases(1, 80, [this](RandomCase& random, Options options, std::vector<Scan> scans) {
+    options.ds_resolution = 0;
+    Scan scan = scans[0];
+    scan.origin = {random.real(-4, 4), random.real(-4, 4), random.real(-4, 4)};
+    Scan turned = scan;
+    turned.origin = {-scan.origin.y(), scan.origin.x(), scan.origin.z()};
+    for (std::size_t i = 0; i < scan.points.size(); ++i)
+      turned.points[i] = {-scan.points[i].y(), scan.points[i].x(), scan.points[i].z()};
+    const SemanticMap a = mapOf(options, {scan});
+    const SemanticMap b = mapOf(options, {turned});
+    countFilled(!a.empty());
+    a.forEachVoxel([&](const VoxelIndex& v, const DirichletVoxel& voxel) {
+      const DirichletVoxel image = b.voxel({-v.y - 1, v.x, v.z});
+      for (int k = 0; k < options.number_of_classes; ++k) {
+        const double mass = voxel.evidence(static_cast<ClassId>(k));
+        ASSERT_NEAR(mass, image.evidence(static_cast<ClassId>(k)),
+                    1.01 * kCountQuantum + 1e-5 * mass);
+      }
+    });
+  });
+  expectMostlyFilled();
+}
+
+TEST_P(Properties, ProbabilitiesSumToOneAndOccupiedVoxelsHaveAPointNearby) {
+  forRandomCases(1, 60, [](RandomCase&, Options options, const std::vector<Scan>& scans) {
+    options.ds_resolution = 0;
+    const SemanticMap map = mapOf(options, scans);
+    const double reach = options.method == Method::SCsm ? options.resolution
+                         : options.usesClassEntropy()   ? options.kernelLengthMax()
+                                                        : options.kernelLengthFixed();
+    map.forEachVoxel([&](const VoxelIndex& v, const DirichletVoxel& voxel) {
+      const std::vector<double> lambda = voxel.probabilities();
+      ASSERT_NEAR(std::accumulate(lambda.begin(), lambda.end(), 0.0), 1.0, 1e-12);
+      for (std::size_t k = 0; k < lambda.size(); ++k)
+        ASSERT_DOUBLE_EQ(lambda[k], voxel.probability(static_cast<ClassId>(k)));
+      ASSERT_GE(voxel.entropy(), 0.0);
+      ASSERT_LE(voxel.entropy(), 1.0 + 1e-12);
+      if (voxel.state() != VoxelState::Occupied) return;
+      const bool near = std::any_of(
+          scans[0].points.begin(), scans[0].points.end(), [&](const Eigen::Vector3f& p) {
+            return (scans[0].origin + p.cast<double>() - map.grid().center(v)).norm() <
+                   reach * 1.0001;
+          });
+      ASSERT_TRUE(near);
+    });
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Properties,
+                         testing::Values(Method::SeeCsom, Method::SBki, Method::SCsm), methodName);
+
+TEST(RedundantVoxelFilter, FillsASubset) {
+  std::size_t filtered = 0;
+  for (int seed = 0; seed < kRandomCases; ++seed) {
+    RandomCase random(static_cast<std::uint64_t>(seed) + 5000);
+    Options on = random.options(Method::SeeCsom);
+    on.rvfm = true;
+    // A crossed voxel is known with or without the filter: leave beams out of the comparison.
+    if (on.free_space == FreeSpace::Raycast) on.free_space = FreeSpace::None;
+    Options off = on;
+    off.rvfm = false;
+    const Scan scan = random.scan(on, 100);
+    SemanticMap with(on);
+    SemanticMap without(off);
+    with.insert(scan);
+    without.insert(scan);
+    with.forEachVoxel([&](const VoxelIndex& v, const DirichletVoxel& voxel) {
+      const DirichletVoxel other = without.voxel(v);
+      for (int k = 0; k < on.number_of_classes; ++k)
+        ASSERT_EQ(voxel.count(static_cast<ClassId>(k)), other.count(static_cast<ClassId>(k)))
+            << "seed " << seed;
+    });
+    filtered += without.knownVoxelCount() - with.knownVoxelCount();
+  }
+  EXPECT_GT(filtered, 0U);
+}
+
+}  // namespace
+}  // namespace csom::test
