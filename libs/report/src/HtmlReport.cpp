@@ -35,10 +35,11 @@ std::string cssColor(const Color& color) {
   return text;
 }
 
+/// "63 × 41 × 8 m", with spaces at which no line breaks.
 std::string extentOf(const MapFigures& figures) {
   const Eigen::Vector3d size = figures.bounds.sizes();
-  return formatNumber(size.x()) + " × " + formatNumber(size.y()) + " × " + formatNumber(size.z()) +
-         " m";
+  return formatNumber(size.x()) + "\u00a0×\u00a0" + formatNumber(size.y()) + "\u00a0×\u00a0" +
+         formatNumber(size.z()) + "\u00a0m";
 }
 
 std::size_t refusedTotal(const RunRecord& record) {
@@ -109,8 +110,11 @@ void writeClasses(std::ostream& page, const MapFigures& figures) {
     else
       absent += (absent.empty() ? "" : ", ") + c.name;
   }
-  std::stable_sort(present.begin(), present.end(),
-                   [](const auto& a, const auto& b) { return a.voxels > b.voxels; });
+  // The largest first, free space last.
+  std::stable_sort(present.begin(), present.end(), [](const auto& a, const auto& b) {
+    if ((a.id == kFreeClass) != (b.id == kFreeClass)) return b.id == kFreeClass;
+    return a.voxels > b.voxels;
+  });
   page << "<h2>Classes</h2>\n";
   if (!present.empty()) {
     page << "<div class=\"wide\"><table><thead><tr><th>id</th><th class=\"text\">class</th>"

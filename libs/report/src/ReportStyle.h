@@ -28,7 +28,7 @@ p { margin: .5rem 0; max-width: 46rem; }
 .lead { font-size: 1.08rem; }
 .soft { color: var(--soft); }
 .figures {
-  display: grid; grid-template-columns: repeat(auto-fit, minmax(9.5rem, 1fr)); gap: .75rem;
+  display: grid; grid-template-columns: repeat(auto-fit, minmax(8.8rem, 1fr)); gap: .75rem;
   margin: 1.25rem 0 0; padding: 0;
 }
 .figures div { background: var(--panel); border-radius: .5rem; padding: .7rem .9rem; }
@@ -45,7 +45,8 @@ table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nu
 th, td { padding: .35rem .6rem; text-align: right; border-bottom: 1px solid var(--rule); }
 th { color: var(--soft); font-weight: 600; font-size: .88rem; vertical-align: bottom; }
 th.text, td.text { text-align: left; overflow-wrap: anywhere; }
-td.text { min-width: 8rem; }
+td { white-space: nowrap; }
+td.text { min-width: 8rem; white-space: normal; }
 .swatch {
   display: inline-block; width: .9em; height: .9em; margin-right: .5em; vertical-align: -.08em;
   border: 1px solid var(--rule); border-radius: .2em; print-color-adjust: exact;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kMargin = 20;
 constexpr int kLegendLine = 22;
-constexpr int kFooterHeight = 64;
+constexpr int kFooterHeight = 68;
 constexpr int kSwatch = 14;
 constexpr std::size_t kMostLegendLines = 30;
 constexpr std::size_t kLongestName = 26;
@@ -76,7 +76,7 @@ double brightness(const ColumnGrid& grid, const HeightRange& range, int column, 
     return top - grid.at(c, r).top;
   };
   const double slope = (rise(column - 1, row) + rise(column, row - 1)) / 2;
-  return 0.82 + 0.26 * height + 0.16 * std::tanh(slope / 4);
+  return 0.90 + 0.20 * height + 0.16 * std::tanh(slope / 4);
 }
 
 /// Darker below 1, towards white above.
@@ -178,7 +178,7 @@ void drawAxes(Canvas& canvas, cv::Point origin) {
   canvas.arrow(origin, origin + cv::Point(kLength, 0), kInk);
   canvas.arrow(origin, origin - cv::Point(0, kLength), kInk);
   canvas.text("x", origin + cv::Point(kLength + 4, 4), kInk);
-  canvas.text("y", origin + cv::Point(6, -kLength + 6), kInk);
+  canvas.text("y", origin + cv::Point(-4, -kLength - 6), kInk);
 }
 
 std::vector<std::uint8_t> emptyPicture(bool map_is_empty) {
@@ -215,7 +215,7 @@ std::vector<std::uint8_t> topViewPng(const MapDocument& document, const TopViewO
   const double metres_per_pixel =
       document.map.grid().resolution() * grid.voxelsPerCell() / cell_size;
   drawScaleBar(canvas, {panel.x, panel.br().y + 30}, metres_per_pixel);
-  drawAxes(canvas, {panel.br().x - 60, panel.br().y + 50});
+  drawAxes(canvas, {panel.br().x - 50, panel.br().y + 60});
   return canvas.toPng();
 }
 
