@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "DataSetFiles.h"
 #include "LoggedScan.h"
@@ -61,23 +62,45 @@ class PcdFiles {
     return cloud;
   }
 
+  /// One line for each kind of fault, however many files have it.
+  void addWarnings() const {
+    for (const auto& [what, fault] : faults_) {
+      std::string text = fault.first + ": " + std::to_string(fault.count) + " " + what;
+      if (fault.files > 1)
+        text += ", in this and " + std::to_string(fault.files - 1) + " more files";
+      summary_.warnings.push_back(text);
+    }
+  }
+
  private:
+  struct Fault {
+    std::size_t count = 0;
+    std::size_t files = 0;
+    std::string first;  ///< file, and line if known
+  };
+
   void report(const PcdCloud& raw, const std::string& file) {
-    const auto warn = [&](std::size_t count, const std::string& what) {
-      if (count > 0) summary_.warnings.push_back(file + ": " + std::to_string(count) + " " + what);
-    };
-    warn(raw.irregular_rows, "rows with a wrong number of columns, the first in line " +
-                                 std::to_string(raw.first_irregular_line) + "; left out " +
-                                 std::to_string(raw.skipped_rows) + " of them");
-    warn(raw.invalid_labels, "points whose label is no whole number");
-    warn(raw.trailing_bytes, "bytes after the last point, not read");
+    const std::string line = ", line " + std::to_string(raw.first_irregular_line);
+    note("rows with a wrong number of columns, left out", raw.skipped_rows, file + line);
+    note("rows with surplus columns, which were ignored", raw.irregular_rows - raw.skipped_rows,
+         file + line);
+    note("points whose label is no whole number", raw.invalid_labels, file);
+    note("bytes after the last point, not read", raw.trailing_bytes, file);
     const auto too_large = std::count_if(raw.labels.begin(), raw.labels.end(), [](auto label) {
       return label > detail::kLargestLabelInFloat && label != kNoPcdLabel;
     });
-    warn(static_cast<std::size_t>(too_large),
-         "points whose label is above 2^24, too large to keep");
+    note("points whose label is above 2^24, too large to keep", static_cast<std::size_t>(too_large),
+         file);
   }
 
+  void note(const std::string& what, std::size_t count, const std::string& place) {
+    if (count == 0) return;
+    Fault& fault = faults_[what];
+    fault.count += count;
+    if (fault.files++ == 0) fault.first = place;
+  }
+
+  std::map<std::string, Fault> faults_;
   const PcdImport& request_;
   ImportSummary& summary_;
 };
@@ -125,6 +148,7 @@ ImportSummary importPcd(const PcdImport& request, const std::string& rawlog,
   }
   if (all) write(log, *all, 0, summary);
   log.commit();
+  reader.addWarnings();
   return summary;
 }
 

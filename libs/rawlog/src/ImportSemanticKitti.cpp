@@ -26,6 +26,8 @@ class Sequence {
         camera_poses_(readKittiPoses(poses_file_)),
         camera_from_velodyne_(readKittiOdometryCalibration((folder_ / "calib.txt").string())),
         times_(detail::readTimes((folder_ / "times.txt").string())) {
+    if (request.world == SemanticKittiWorld::Velodyne)
+      world_from_camera_world_ = camera_from_velodyne_.inverse();
     if (request.labels.empty()) return;
     labels_ = folder_ / request.labels;
     if (!fs::is_directory(labels_)) labels_ = request.labels;
@@ -50,7 +52,7 @@ class Sequence {
     if (number >= camera_poses_.size())
       throw FileError(poses_file_, "has " + std::to_string(camera_poses_.size()) +
                                        " poses, so none for " + file);
-    return detail::toMrpt(camera_poses_[number] * camera_from_velodyne_);
+    return detail::toMrpt(world_from_camera_world_ * camera_poses_[number] * camera_from_velodyne_);
   }
 
   std::vector<float> carried(const std::string& file, const KittiScan& scan) const {
@@ -69,6 +71,7 @@ class Sequence {
   std::string poses_file_;
   std::vector<Eigen::Isometry3d> camera_poses_;
   Eigen::Isometry3d camera_from_velodyne_;
+  Eigen::Isometry3d world_from_camera_world_ = Eigen::Isometry3d::Identity();
   std::vector<double> times_;
   fs::path labels_;
 };

@@ -3,6 +3,8 @@
 #include <csom/core/Error.h>
 #include <csom/rawlog/MappingRun.h>
 #include <csom/rawlog/RawlogSurvey.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
@@ -18,6 +20,12 @@ using mrpt::poses::CPose3D;
 
 std::string counted(std::size_t count, const std::string& things) {
   return std::to_string(count) + " " + things;
+}
+
+/// Observations that say where the robot is, not what is around it.
+bool tellsPose(const mrpt::obs::CObservation& observation) {
+  return dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation) != nullptr ||
+         dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation) != nullptr;
 }
 
 CSemanticContinuousMap::Ptr emptyMap(const MappingRequest& request) {
@@ -115,6 +123,7 @@ void MappingRun::mapLog(const RawlogSurvey& survey, PoseSource& poses) {
 void MappingRun::mapEntry(const RawlogEntry& entry, PoseSource& poses) {
   open_frame_.reset();
   for (const auto& observation : entry.observations) {
+    if (tellsPose(*observation)) continue;
     ++result_.observations_read;
     const auto pose = poses.poseOf(entry, *observation);
     if (!pose) {

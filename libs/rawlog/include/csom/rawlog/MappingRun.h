@@ -42,8 +42,8 @@ struct MappedLog {
 struct MappingResult {
   CSemanticContinuousMap::Ptr map;
   std::vector<MappedLog> logs;
-  std::vector<double> insert_ms;  ///< one for each of map->scans()
-  std::size_t observations_read = 0;
+  std::vector<double> insert_ms;      ///< one for each of map->scans()
+  std::size_t observations_read = 0;  ///< robot poses and odometry are not counted
   /// Observations that did not reach the map, by (class, reason).
   std::map<std::pair<std::string, std::string>, std::size_t> refused;
   std::vector<std::string> warnings;  ///< one line each
