@@ -73,12 +73,12 @@ void writeFigure(std::ostream& page, const std::string& name, const std::string&
 
 void writeFigures(std::ostream& page, const RunRecord& record, const MapFigures& figures) {
   page << "<dl class=\"figures\">\n";
-  writeFigure(page, "Observations inserted", formatCount(record.scans.size()));
+  writeFigure(page, "Observations", formatCount(record.scans.size()));
   writeFigure(page, "Points", formatCount(totals(record).points));
   writeFigure(page, "Points rejected", formatCount(totals(record).rejectedTotal()));
   writeFigure(page, "Occupied voxels", formatCount(figures.occupied_voxels));
   writeFigure(page, "Free voxels", formatCount(figures.free_voxels));
-  writeFigure(page, "Memory of the map", formatBytes(figures.memory_bytes));
+  writeFigure(page, "Map in memory", formatBytes(figures.memory_bytes));
   page << "</dl>\n";
 }
 
