@@ -23,7 +23,7 @@ struct ScanRecord {
 
 /// All that a map file holds. The map has as many classes as `labels`.
 struct MapDocument {
-  SemanticMap map;
+  SemanticMap map{Options{}};
   LabelSet labels = LabelSet::occupancy();
   std::vector<ScanRecord> scans;
   /// Free-form provenance: "created_by", "command", "rawlog", … ("digest" is the file's own.)

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <csom/core/Error.h>
+#include <csom/io/TrajectoryFile.h>
+
+#include <array>
+#include <cmath>
+
+#include "InputFile.h"
+#include "RigidTransform.h"
+#include "TextParser.h"
+
+namespace csom {
+
+namespace {
+
+/// The lines of a file that hold exactly N finite numbers each; comments and blank lines are left
+/// out.
+template <std::size_t N>
+class NumberLines {
+ public:
+  NumberLines(const std::string& file, const char* layout)
+      : file_(file), layout_(layout), text_(detail::readFile(file)), lines_(text_) {}
+
+  bool next(std::array<double, N>& numbers) {
+    for (std::string_view line; lines_.next(line);) {
+      detail::splitColumns(line, columns_);
+      if (columns_.empty() || columns_.front().front() == '#') continue;
+      if (columns_.size() != N)
+        fail(std::to_string(columns_.size()) + " columns, expected the " + std::to_string(N) +
+             " numbers " + layout_);
+      for (std::size_t i = 0; i < N; ++i) {
+        if (!detail::parseNumber(columns_[i], numbers[i]) || !std::isfinite(numbers[i]))
+          fail("column " + std::to_string(i + 1) + " is " + detail::quoted(columns_[i]) +
+               ", expected a finite number");
+      }
+      return true;
+    }
+    return false;
+  }
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw FileError(file_, "line " + std::to_string(lines_.lineNumber()) + ": " + reason);
+  }
+
+ private:
+  std::string file_;
+  const char* layout_;
+  std::string text_;
+  detail::LineReader lines_;
+  std::vector<std::string_view> columns_;
+};
+
+}  // namespace
+
+std::vector<TimedPose> readTumTrajectory(const std::string& file) {
+  NumberLines<8> lines(file, "'timestamp x y z qx qy qz qw'");
+  std::vector<TimedPose> trajectory;
+  for (std::array<double, 8> n{}; lines.next(n);) {
+    const Eigen::Quaterniond rotation(n[7], n[4], n[5], n[6]);
+    if (!(std::abs(rotation.norm() - 1) <= 0.01))
+      lines.fail("the quaternion has length " + std::to_string(rotation.norm()) +
+                 ", expected 1; the order is qx qy qz qw");
+    if (!trajectory.empty() && n[0] <= trajectory.back().timestamp)
+      lines.fail("time " + std::to_string(n[0]) + " is not after " +
+                 std::to_string(trajectory.back().timestamp) +
+                 " of the pose before; sort the file by time");
+    TimedPose entry;
+    entry.timestamp = n[0];
+    entry.pose.linear() = rotation.normalized().toRotationMatrix();
+    entry.pose.translation() = Eigen::Vector3d(n[1], n[2], n[3]);
+    trajectory.push_back(entry);
+  }
+  if (trajectory.empty()) throw FileError(file, "holds no pose");
+  return trajectory;
+}
+
+std::vector<Eigen::Isometry3d> readKittiPoses(const std::string& file) {
+  NumberLines<12> lines(file, "of a 3x4 matrix");
+  std::vector<Eigen::Isometry3d> poses;
+  for (std::array<double, 12> n{}; lines.next(n);) {
+    const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> matrix(n.data());
+    const auto pose = detail::poseFromMatrix(matrix);
+    if (!pose) lines.fail("columns 1-3, 5-7 and 9-11 are not a rotation");
+    poses.push_back(*pose);
+  }
+  if (poses.empty()) throw FileError(file, "holds no pose");
+  return poses;
+}
+
+}  // namespace csom
