@@ -14,9 +14,8 @@ foreach(library ${csom_libraries})
   install(DIRECTORY ${source_folder}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endforeach()
 
-install(DIRECTORY config/labels DESTINATION ${CSOM_INSTALL_DATADIR} FILES_MATCHING PATTERN "*.yaml")
-install(DIRECTORY config DESTINATION ${CSOM_INSTALL_DATADIR}
-  FILES_MATCHING PATTERN "*.ini" PATTERN "*.yaml" PATTERN labels EXCLUDE)
+install(DIRECTORY config/ DESTINATION ${CSOM_INSTALL_DATADIR}
+  FILES_MATCHING PATTERN "*.ini" PATTERN "*.yaml")
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)
 # Debian's name for the licence file of a package.
