@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   csom::addInfoCommand(program);
   csom::addQueryCommand(program);
   csom::addExportCommand(program);
+  csom::addEvalCommand(program);
   csom::addMergeCommand(program);
   csom::addImportCommand(program);
   csom::addSimulateCommand(program);
