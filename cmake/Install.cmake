@@ -3,6 +3,7 @@
 include(CMakePackageConfigHelpers)
 
 set(CSOM_INSTALL_DATADIR ${CMAKE_INSTALL_DATADIR}/mrpt_csom)
+set(csom_doc_folder ${CMAKE_INSTALL_DATAROOTDIR}/doc/mrpt-csom)
 set(CSOM_INSTALL_CMAKEDIR ${CMAKE_INSTALL_LIBDIR}/cmake/mrpt_csom)
 
 get_property(csom_libraries GLOBAL PROPERTY CSOM_LIBRARIES)
@@ -16,10 +17,10 @@ endforeach()
 
 install(DIRECTORY config/ DESTINATION ${CSOM_INSTALL_DATADIR}
   FILES_MATCHING PATTERN "*.ini" PATTERN "*.yaml")
-install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)
+install(DIRECTORY docs/ DESTINATION ${csom_doc_folder})
+install(FILES README.md CHANGELOG.md DESTINATION ${csom_doc_folder} OPTIONAL)
 # Debian's name for the licence file of a package.
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
+install(FILES LICENSE DESTINATION ${csom_doc_folder} RENAME copyright)
 
 install(EXPORT mrpt_csomTargets NAMESPACE csom:: DESTINATION ${CSOM_INSTALL_CMAKEDIR})
 configure_package_config_file(
