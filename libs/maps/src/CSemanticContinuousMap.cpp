@@ -83,7 +83,7 @@ CSemanticContinuousMap& CSemanticContinuousMap::operator=(const CSemanticContinu
   statistics_ = other.statistics_;
   meta_ = other.meta_;
   adapter_.reset();
-  occupied_points_.invalidate();
+  invalidatePoints();
   return *this;
 }
 
@@ -103,7 +103,7 @@ void CSemanticContinuousMap::setDocument(MapDocument document) {
   statistics_ = {};
   statistics_.inserted = scans_.size();
   adapter_.reset();
-  occupied_points_.invalidate();
+  invalidatePoints();
 }
 
 std::string CSemanticContinuousMap::asString() const {
@@ -118,7 +118,7 @@ void CSemanticContinuousMap::saveMetricMapRepresentationToFile(const std::string
 }
 
 void CSemanticContinuousMap::auxParticleFilterCleanUp() {
-  occupied_points_.invalidate();
+  invalidatePoints();
 }
 
 void CSemanticContinuousMap::internal_clear() {
@@ -127,7 +127,12 @@ void CSemanticContinuousMap::internal_clear() {
   statistics_ = {};
   meta_.clear();
   adapter_.reset();
-  occupied_points_.invalidate();
+  invalidatePoints();
+}
+
+void CSemanticContinuousMap::invalidatePoints() {
+  for (OccupiedPoints* points : {&occupied_points_, &points_for_2d_, &points_for_3d_})
+    points->invalidate();
 }
 
 LabelRules CSemanticContinuousMap::labelRules() const {
@@ -166,7 +171,7 @@ bool CSemanticContinuousMap::insertScan(const AdaptedScan& adapted) {
     return false;
   }
   ++statistics_.inserted;
-  occupied_points_.invalidate();
+  invalidatePoints();
   const Eigen::Vector3d& origin = adapted.scan.origin;
   scans_.push_back({adapted.timestamp,
                     adapted.sensor_label,

@@ -31,8 +31,8 @@ void CSemanticContinuousMap::determineMatching2D(const mrpt::maps::CMetricMap* o
                                                  mrpt::tfest::TMatchingPairList& correspondences,
                                                  const mrpt::maps::TMatchingParams& params,
                                                  mrpt::maps::TMatchingExtraResults& results) const {
-  occupied_points_.get(map_).determineMatching2D(&pointsOf(other), other_pose, correspondences,
-                                                 params, results);
+  points_for_2d_.get(map_).determineMatching2D(&pointsOf(other), other_pose, correspondences,
+                                               params, results);
 }
 
 void CSemanticContinuousMap::determineMatching3D(const mrpt::maps::CMetricMap* other,
@@ -40,18 +40,18 @@ void CSemanticContinuousMap::determineMatching3D(const mrpt::maps::CMetricMap* o
                                                  mrpt::tfest::TMatchingPairList& correspondences,
                                                  const mrpt::maps::TMatchingParams& params,
                                                  mrpt::maps::TMatchingExtraResults& results) const {
-  occupied_points_.get(map_).determineMatching3D(&pointsOf(other), other_pose, correspondences,
-                                                 params, results);
+  points_for_3d_.get(map_).determineMatching3D(&pointsOf(other), other_pose, correspondences,
+                                               params, results);
 }
 
 float CSemanticContinuousMap::compute3DMatchingRatio(
     const mrpt::maps::CMetricMap* other, const mrpt::poses::CPose3D& other_pose,
     const mrpt::maps::TMatchingRatioParams& params) const {
-  return occupied_points_.get(map_).compute3DMatchingRatio(&pointsOf(other), other_pose, params);
+  return points_for_3d_.get(map_).compute3DMatchingRatio(&pointsOf(other), other_pose, params);
 }
 
 float CSemanticContinuousMap::squareDistanceToClosestCorrespondence(float x0, float y0) const {
-  const mrpt::maps::CSimplePointsMap& points = occupied_points_.get(map_);
+  const mrpt::maps::CSimplePointsMap& points = points_for_2d_.get(map_);
   if (points.empty()) return std::numeric_limits<float>::max();
   return points.squareDistanceToClosestCorrespondence(x0, y0);
 }

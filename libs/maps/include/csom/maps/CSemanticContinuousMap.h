@@ -163,6 +163,7 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
       const mrpt::obs::CObservation& observation) const override;
 
   LabelRules labelRules() const;
+  void invalidatePoints();
   /// Returns true if any point was used.
   bool insertScan(const AdaptedScan& adapted);
   void noteDamaged(const mrpt::obs::CObservation& observation, const std::string& why);
@@ -173,7 +174,10 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   InsertionStatistics statistics_;
   std::map<std::string, std::string> meta_;      ///< of the document that was set
   std::unique_ptr<ObservationAdapter> adapter_;  ///< made at the first insertion
-  OccupiedPoints occupied_points_;
+  OccupiedPoints occupied_points_;               ///< what getAsSimplePointsMap() hands out
+  // MRPT's points maps fail when they are searched in 2-D and then in 3-D: one for each.
+  OccupiedPoints points_for_2d_;
+  OccupiedPoints points_for_3d_;
 };
 
 }  // namespace csom

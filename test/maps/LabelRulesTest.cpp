@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <csom/core/Error.h>
+#include <csom/core/Options.h>
+#include <csom/maps/LabelRules.h>
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "SampleObservations.h"
+
+namespace csom {
+
+static bool operator==(const PointLabel& a, const PointLabel& b) {
+  return a.kind == b.kind && a.id == b.id;
+}
+
+namespace {
+
+using Kind = PointLabel::Kind;
+
+TEST(LabelRules, rawIdsBecomeClasses) {
+  const LabelSet labels = testing::sampleLabels();
+  const LabelRules rules(labels, PointLabels::ByIntensity, "", "");
+  EXPECT_EQ(rules.fromRaw(40), (PointLabel{Kind::Class, 1}));
+  EXPECT_EQ(rules.fromRaw(0), PointLabel{Kind::Ignored});
+  EXPECT_EQ(rules.fromRaw(41), PointLabel{Kind::Unknown});
+}
+
+TEST(LabelRules, intensitiesMustBeWholeNumbers) {
+  const LabelSet labels = testing::sampleLabels();
+  const LabelRules rules(labels, PointLabels::ByIntensity, "", "");
+  EXPECT_EQ(rules.fromIntensity(50.0f), (PointLabel{Kind::Class, 2}));
+  for (const float bad : {50.5f, -40.0f, 1e30f, std::numeric_limits<float>::quiet_NaN(),
+                          std::numeric_limits<float>::infinity()})
+    EXPECT_EQ(rules.fromIntensity(bad), PointLabel{Kind::Unknown}) << bad;
+}
+
+TEST(LabelRules, coloursAndNamesMustMatchExactly) {
+  const LabelSet labels = testing::sampleLabels();
+  const LabelRules rules(labels, PointLabels::ByColor, "", "");
+  EXPECT_EQ(rules.fromColor({0, 200, 0}), (PointLabel{Kind::Class, 2}));
+  EXPECT_EQ(rules.fromColor({0, 201, 0}), PointLabel{Kind::Unknown});
+  EXPECT_EQ(rules.fromName("road"), (PointLabel{Kind::Class, 1}));
+  EXPECT_EQ(rules.fromName("Road"), PointLabel{Kind::Unknown});
+}
+
+TEST(LabelRules, unlabelledPointsHaveADefaultClass) {
+  const LabelSet sample = testing::sampleLabels();
+  EXPECT_EQ(LabelRules(sample, PointLabels::None, "", "").unlabelledClass(), ClassId{3});
+  const LabelSet occupancy = LabelSet::occupancy();
+  EXPECT_EQ(LabelRules(occupancy, PointLabels::None, "", "").unlabelledClass(), ClassId{1});
+}
+
+TEST(LabelRules, unlabelledPointsMayBeDroppedOrNamed) {
+  const LabelSet labels = testing::sampleLabels();
+  EXPECT_FALSE(LabelRules(labels, PointLabels::None, "drop", "").unlabelledClass());
+  EXPECT_EQ(LabelRules(labels, PointLabels::None, "wall", "").unlabelledClass(), ClassId{2});
+}
+
+TEST(LabelRules, scansOf2DFollowTheirOwnKey) {
+  const LabelSet labels = testing::sampleLabels();
+  EXPECT_EQ(LabelRules(labels, PointLabels::None, "", "wall").ofScan2D(),
+            (PointLabel{Kind::Class, 2}));
+  EXPECT_EQ(LabelRules(labels, PointLabels::None, "road", "").ofScan2D(),
+            (PointLabel{Kind::Class, 1}));
+  EXPECT_EQ(LabelRules(labels, PointLabels::None, "drop", "").ofScan2D(), PointLabel{});
+}
+
+TEST(LabelRules, unknownClassNamesAreNamedInTheError) {
+  const LabelSet labels = testing::sampleLabels();
+  try {
+    LabelRules(labels, PointLabels::None, "lawn", "");
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), ::testing::AllOf(::testing::HasSubstr("unlabelled_class = lawn"),
+                                               ::testing::HasSubstr("road, wall")));
+  }
+  EXPECT_THROW(LabelRules(labels, PointLabels::None, "free", ""), ConfigError);
+  EXPECT_THROW(LabelRules(labels, PointLabels::None, "", "lawn"), ConfigError);
+}
+
+TEST(LabelRules, pointLabelsParse) {
+  for (const PointLabels value :
+       {PointLabels::None, PointLabels::ByIntensity, PointLabels::ByColor}) {
+    PointLabels parsed = PointLabels::None;
+    parse("point_labels", toString(value), parsed);
+    EXPECT_EQ(parsed, value);
+  }
+  PointLabels parsed = PointLabels::None;
+  EXPECT_THROW(parse("point_labels", "colour", parsed), OptionError);
+}
+
+}  // namespace
+}  // namespace csom

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Likelihood and matching prefer the true pose.
+#include <csom/maps/CSemanticContinuousMap.h>
+#include <gtest/gtest.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/poses/CPose2D.h>
+
+#include <thread>
+#include <vector>
+
+#include "SampleObservations.h"
+
+namespace csom {
+namespace {
+
+using mrpt::poses::CPose3D;
+using testing::roomCloud;
+using testing::roomMap;
+using testing::roomPoints;
+using testing::sampleMap;
+
+TEST(Likelihood, fallsWithTheDistanceFromTheTruth) {
+  const CSemanticContinuousMap map = roomMap();
+  double previous = map.computeObservationLikelihood(*roomCloud(), CPose3D());
+  for (const double offset : {0.3, 0.6, 0.9}) {
+    const double here =
+        map.computeObservationLikelihood(*roomCloud(), CPose3D(offset, offset, 0, 0, 0, 0));
+    EXPECT_LT(here, previous) << offset;
+    previous = here;
+  }
+  EXPECT_LT(map.computeObservationLikelihood(*roomCloud(), CPose3D(0, 0, 0, 0.2, 0, 0)),
+            map.computeObservationLikelihood(*roomCloud(), CPose3D(0, 0, 0, 0.02, 0, 0)));
+}
+
+TEST(Likelihood, followsItsFormula) {
+  CSemanticContinuousMap map = sampleMap();
+  map.insertObservation(*roomCloud());
+  map.likelihoodOptions = {};
+  map.likelihoodOptions.decimation = 1;
+  map.likelihoodOptions.max_distance = 0.5;
+  map.likelihoodOptions.sigma = 0.1;
+  // Far outside every point is at max_distance: -0.5 * 0.25 / 0.01.
+  EXPECT_DOUBLE_EQ(map.computeObservationLikelihood(*roomCloud(), CPose3D(100, 0, 0, 0, 0, 0)),
+                   -12.5);
+}
+
+TEST(Likelihood, saysNothingWithoutPoints) {
+  const CSemanticContinuousMap map = roomMap();
+  EXPECT_FALSE(map.canComputeObservationLikelihood(mrpt::obs::CObservationOdometry()));
+  EXPECT_EQ(map.computeObservationLikelihood(mrpt::obs::CObservationOdometry(), CPose3D()), 0);
+  EXPECT_EQ(map.computeObservationLikelihood(mrpt::obs::CObservationPointCloud(), CPose3D()), 0);
+  EXPECT_EQ(map.computeObservationLikelihood(*testing::laserScan(0), CPose3D()), 0);
+}
+
+TEST(Likelihood, isTheSameFromManyThreads) {
+  const CSemanticContinuousMap map = roomMap();
+  const auto observation = roomCloud();
+  const double expected = map.computeObservationLikelihood(*observation, CPose3D());
+  std::vector<double> values(4);
+  std::vector<std::size_t> points(values.size());
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    threads.emplace_back([&, i] {
+      values[i] = map.computeObservationLikelihood(*observation, CPose3D());
+      points[i] = map.getAsSimplePointsMap()->size();
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const double value : values) EXPECT_EQ(value, expected);
+  for (const std::size_t count : points) EXPECT_EQ(count, map.getAsSimplePointsMap()->size());
+}
+
+mrpt::maps::CSimplePointsMap roomPointsMap() {
+  mrpt::maps::CSimplePointsMap points;
+  for (const Eigen::Vector3f& p : roomPoints()) points.insertPoint(p.x(), p.y(), p.z());
+  return points;
+}
+
+TEST(Matching, findsItsOwnPoints) {
+  const CSemanticContinuousMap map = roomMap();
+  const mrpt::maps::CSimplePointsMap points = roomPointsMap();
+  mrpt::maps::TMatchingParams params;
+  params.maxDistForCorrespondence = 0.3f;
+  mrpt::tfest::TMatchingPairList pairs;
+  mrpt::maps::TMatchingExtraResults results;
+  map.determineMatching3D(&points, CPose3D(), pairs, params, results);
+  EXPECT_GT(results.correspondencesRatio, 0.99f);
+  map.determineMatching3D(&points, CPose3D(50, 0, 0, 0, 0, 0), pairs, params, results);
+  EXPECT_EQ(results.correspondencesRatio, 0.0f);
+  map.determineMatching2D(&points, mrpt::poses::CPose2D(), pairs, params, results);
+  EXPECT_GT(results.correspondencesRatio, 0.99f);
+}
+
+TEST(Matching, ratioIsHigherAtTheTruth) {
+  const CSemanticContinuousMap map = roomMap();
+  const CSemanticContinuousMap other = roomMap();
+  mrpt::maps::TMatchingRatioParams params;
+  params.maxDistForCorr = 0.15f;
+  const float here = map.compute3DMatchingRatio(&other, CPose3D(), params);
+  EXPECT_FLOAT_EQ(here, 1.0f);
+  EXPECT_LT(map.compute3DMatchingRatio(&other, CPose3D(20, 0, 0, 0, 0, 0), params), 0.1f);
+}
+
+TEST(Matching, needsPointsOnTheOtherSide) {
+  const CSemanticContinuousMap map = roomMap();
+  const mrpt::maps::COccupancyGridMap2D grid;
+  EXPECT_THROW(map.compute3DMatchingRatio(&grid, CPose3D(), {}), std::invalid_argument);
+  EXPECT_THROW(map.compute3DMatchingRatio(nullptr, CPose3D(), {}), std::invalid_argument);
+}
+
+TEST(Matching, squareDistanceIsToTheNearestOccupiedVoxel) {
+  const CSemanticContinuousMap map = roomMap();
+  const float at_wall = map.squareDistanceToClosestCorrespondence(3.0f, 0.0f);
+  const float in_middle = map.squareDistanceToClosestCorrespondence(0.0f, 0.0f);
+  EXPECT_LT(at_wall, 0.05f);
+  EXPECT_GT(in_middle, 1.0f);
+  EXPECT_EQ(CSemanticContinuousMap().squareDistanceToClosestCorrespondence(0, 0),
+            std::numeric_limits<float>::max());
+}
+
+}  // namespace
+}  // namespace csom

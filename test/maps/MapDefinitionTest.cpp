@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The map as ini files define it: every key, and every mistake named.
+#include <csom/core/Error.h>
+#include <csom/maps/CSemanticContinuousMap.h>
+#include <gmock/gmock.h>
+#include <mrpt/config/CConfigFile.h>
+#include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/maps/CMultiMetricMap.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "SampleObservations.h"
+
+namespace csom {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using Definition = CSemanticContinuousMap::TMapDefinition;
+
+class MapDefinition : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              ("csom_map_definition_" +
+               std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ / "sample.yaml") << testing::sampleLabels().toYaml();
+  }
+
+  std::string file(const std::string& text) const {
+    const std::string name = (folder_ / "map.ini").string();
+    std::ofstream(name) << text;
+    return name;
+  }
+  static std::string section(const std::string& suffix) {
+    return "[MappingApplication_semanticContinuousMap_00_" + suffix + "]\n";
+  }
+  /// An ini with one map and these sections.
+  std::string iniOf(const std::string& sections) const {
+    return file("[MappingApplication]\nsemanticContinuousMap_count = 1\n" + sections);
+  }
+  Definition load(const std::string& sections) const {
+    return CSemanticContinuousMap::definitionFromIni(iniOf(sections));
+  }
+  std::string errorOf(const std::string& sections) const {
+    try {
+      load(sections);
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(MapDefinition, minimalIniGivesAnOccupancyMap) {
+  const Definition definition = load(section("creationOpts") + "resolution = 0.35\n");
+  const CSemanticContinuousMap map(definition);
+  EXPECT_EQ(map.map().options().resolution, 0.35);
+  EXPECT_EQ(map.map().options().number_of_classes, 2);
+  EXPECT_EQ(map.labels().name(), LabelSet::occupancy().name());
+  EXPECT_THAT(definition.unknownKeys(), ElementsAre());
+}
+
+/// A value other than the default, as text.
+struct OtherValue {
+  std::string operator()(const std::string& key, double) const {
+    return key == "max_range" ? "50.5" : "0.5";
+  }
+  std::string operator()(const std::string& key, int) const {
+    return key == "context_neighbours" ? "18" : "3";
+  }
+  std::string operator()(const std::string&, bool) const { return "off"; }
+  std::string operator()(const std::string&, Method) const { return "s-bki"; }
+  std::string operator()(const std::string&, Kernel) const { return "linear"; }
+  std::string operator()(const std::string&, Neighbourhood) const { return "extended-block"; }
+  std::string operator()(const std::string&, FreeSpace) const { return "raycast"; }
+};
+
+TEST_F(MapDefinition, everyCoreOptionIsReadFromEverySection) {
+  for (const char* suffix : {"creationOpts", "insertOpts", "insertionOpts"}) {
+    std::string keys = section(suffix);
+    const Options defaults;
+    visitOptions(defaults, [&](const std::string& key, const auto& field, auto, auto) {
+      if (key != "number_of_classes") keys += key + " = " + OtherValue()(key, field) + "\n";
+    });
+    const Definition definition = load(keys);
+    EXPECT_THAT(definition.unknownKeys(), ElementsAre()) << suffix;
+    visitOptions(definition.options, [&](const std::string& key, const auto& field, auto, auto) {
+      if (key == "number_of_classes") return;
+      EXPECT_EQ(toString(field), OtherValue()(key, field)) << suffix << " " << key;
+    });
+  }
+}
+
+TEST_F(MapDefinition, keysOfTheMap) {
+  const Definition definition =
+      load(section("creationOpts") + "label_set = sample.yaml ; beside the ini\n" +
+           "enableObservationLikelihood = false\n" + section("insertOpts") +
+           "point_labels = intensity // comment\n" + "unlabelled_class = road # comment\n" +
+           "scan_2d_class = wall\n" + section("likelihoodOpts") +
+           "decimation = 3\nmax_distance = 0.5\nsigma = 0.125\n" + section("renderOpts") +
+           "occupied_voxels = off\nfree_voxels = on\n");
+  EXPECT_THAT(definition.unknownKeys(), ElementsAre());
+  const CSemanticContinuousMap map(definition);
+  EXPECT_EQ(map.labels().name(), "sample");
+  EXPECT_EQ(map.map().options().number_of_classes, 4);
+  EXPECT_FALSE(map.genericMapParams.enableObservationLikelihood);
+  EXPECT_EQ(map.insertionOptions.point_labels, PointLabels::ByIntensity);
+  EXPECT_EQ(map.insertionOptions.unlabelled_class, "road");
+  EXPECT_EQ(map.insertionOptions.scan_2d_class, "wall");
+  EXPECT_EQ(map.likelihoodOptions.decimation, 3);
+  EXPECT_EQ(map.likelihoodOptions.max_distance, 0.5);
+  EXPECT_EQ(map.likelihoodOptions.sigma, 0.125);
+  EXPECT_FALSE(map.renderingOptions.occupied_voxels);
+  EXPECT_TRUE(map.renderingOptions.free_voxels);
+}
+
+TEST_F(MapDefinition, unknownKeysAndSectionsAreListed) {
+  const std::string prefix =
+      (folder_ / "map.ini").string() + " [MappingApplication_semanticContinuousMap_00_";
+  const Definition definition =
+      load(section("creationOpts") + "resolutoin = 0.3\n" + section("insertOpts") +
+           "min_range = 1\nsigma = 1\n" + section("inserOpts") + "max_range = 5\n");
+  EXPECT_THAT(definition.unknownKeys(),
+              ElementsAre(prefix + "creationOpts] resolutoin", prefix + "insertOpts] sigma",
+                          prefix + "inserOpts] max_range"));
+}
+
+TEST_F(MapDefinition, wrongValuesAreNamed) {
+  EXPECT_THAT(errorOf(section("creationOpts") + "resolution = fine\n"),
+              AllOf(HasSubstr("map.ini [MappingApplication_semanticContinuousMap_00_creationOpts]"),
+                    HasSubstr("resolution"), HasSubstr("fine")));
+  EXPECT_THAT(errorOf(section("insertOpts") + "method = fast\n"),
+              AllOf(HasSubstr("method"), HasSubstr("fast"), HasSubstr("s-bki")));
+  EXPECT_THAT(errorOf(section("insertOpts") + "point_labels = colour\n"),
+              AllOf(HasSubstr("point_labels = colour"), HasSubstr("color")));
+  EXPECT_THAT(errorOf(section("insertOpts") + "rvfm = perhaps\n"), HasSubstr("perhaps"));
+  EXPECT_THAT(errorOf(section("insertOpts") + "min_range =\n"), HasSubstr("min_range"));
+  EXPECT_THAT(errorOf(section("creationOpts") + "resolution = -1\n"), HasSubstr("resolution"));
+  EXPECT_THAT(errorOf(section("insertOpts") + "unlabelled_class = lawn\n"),
+              HasSubstr("unlabelled_class = lawn"));
+  EXPECT_THAT(errorOf(section("likelihoodOpts") + "sigma = 0\n"), HasSubstr("sigma = 0"));
+  EXPECT_THAT(errorOf(section("likelihoodOpts") + "decimation = 1.5\n"), HasSubstr("decimation"));
+}
+
+TEST_F(MapDefinition, errorsAreOneLine) {
+  for (const char* keys : {"resolution = fine\n", "label_set = nowhere.yaml\n",
+                           "number_of_classes = 7\n", "prior = -2\n"})
+    EXPECT_EQ(errorOf(section("creationOpts") + keys).find('\n'), std::string::npos) << keys;
+}
+
+TEST_F(MapDefinition, numberOfClassesComesFromTheLabelSet) {
+  EXPECT_THAT(errorOf(section("creationOpts") + "label_set = sample.yaml\nnumber_of_classes = 5\n"),
+              AllOf(HasSubstr("number_of_classes = 5"), HasSubstr("'sample' has 4")));
+  EXPECT_EQ(load(section("creationOpts") + "label_set = sample.yaml\nnumber_of_classes = 4\n")
+                .options.number_of_classes,
+            4);
+}
+
+TEST_F(MapDefinition, missingLabelSetIsNamed) {
+  EXPECT_THAT(errorOf(section("creationOpts") + "label_set = nowhere.yaml\n"),
+              HasSubstr("label_set = nowhere.yaml"));
+}
+
+TEST_F(MapDefinition, exactlyOneMapIsNeeded) {
+  EXPECT_THROW(CSemanticContinuousMap::definitionFromIni(file("[MappingApplication]\n")),
+               ConfigError);
+  EXPECT_THROW(CSemanticContinuousMap::definitionFromIni(
+                   file("[MappingApplication]\nsemanticContinuousMap_count = 2\n")),
+               ConfigError);
+  EXPECT_THROW(CSemanticContinuousMap::definitionFromIni((folder_ / "none.ini").string()),
+               FileError);
+}
+
+TEST_F(MapDefinition, otherNamesOfTheMapWorkToo) {
+  const Definition definition = CSemanticContinuousMap::definitionFromIni(
+      file("[M]\nCSemanticContinuousMap_count = 1\n"
+           "[M_CSemanticContinuousMap_00_creationOpts]\nresolution = 0.4\n"),
+      "M");
+  EXPECT_EQ(definition.options.resolution, 0.4);
+}
+
+TEST_F(MapDefinition, applicationsOfMrptAreWarned) {
+  const mrpt::config::CConfigFile ini(
+      iniOf(section("creationOpts") + "resolutoin = 0.3\nresolution = 0.5\n"));
+  mrpt::maps::TSetOfMetricMapInitializers definitions;
+  ::testing::internal::CaptureStderr();
+  definitions.loadFromConfigFile(ini, "MappingApplication");
+  EXPECT_THAT(::testing::internal::GetCapturedStderr(),
+              AllOf(HasSubstr("warning"), HasSubstr("resolutoin")));
+
+  mrpt::maps::CMultiMetricMap maps;
+  maps.setListOfMaps(definitions);
+  const auto map = maps.mapByClass<CSemanticContinuousMap>();
+  ASSERT_TRUE(map);
+  EXPECT_EQ(map->map().options().resolution, 0.5);
+}
+
+TEST_F(MapDefinition, configurationsInMemoryHaveNoFile) {
+  mrpt::config::CConfigFileMemory ini;
+  ini.setContent("[X_creationOpts]\nresolutoin = 1\n");
+  Definition definition;
+  definition.load(ini, "X");
+  EXPECT_THAT(definition.unknownKeys(), ElementsAre("ini [X_creationOpts] resolutoin"));
+}
+
+TEST_F(MapDefinition, dumpShowsEveryKey) {
+  std::ostringstream text;
+  load(section("creationOpts") + "label_set = sample.yaml\n").dumpToTextStream(text);
+  for (const char* key : {"label_set", "resolution", "method", "point_labels", "decimation",
+                          "occupied_voxels", "threads"})
+    EXPECT_THAT(text.str(), HasSubstr(key));
+}
+
+}  // namespace
+}  // namespace csom
