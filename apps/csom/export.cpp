@@ -38,10 +38,6 @@ void addExportCommand(CLI::App& program) {
   auto arguments = std::make_shared<ExportArguments>();
   CLI::App* command =
       program.add_subcommand("export", "Write the voxels of a map as a PLY, PCD or CSV file");
-  command->description(
-      "Writes the occupied voxels of a map, one point or line each: the voxel's centre in metres,\n"
-      "its most likely class, that class's probability and variance. csv has the columns\n"
-      "x,y,z,class_id,class_name,probability,variance,evidence.");
   command->add_option("MAP", arguments->file, "map file (.csom)")->required();
   command->add_option("--to", arguments->format, "ply, pcd or csv")
       ->required()
@@ -51,6 +47,9 @@ void addExportCommand(CLI::App& program) {
       ->required();
   command->add_flag("--all", arguments->all, "free voxels as well");
   command->footer(
+      "Writes the occupied voxels of a map, one point or line each: the voxel's centre in metres,\n"
+      "its most likely class, that class's probability and variance. csv has the columns\n"
+      "x,y,z,class_id,class_name,probability,variance,evidence.\n\n"
       "Examples:\n"
       "  csom export out/map.csom --to ply -o map.ply      # for MeshLab or CloudCompare\n"
       "  csom export out/map.csom --to pcd -o map.pcd      # for PCL, pcl_viewer\n"

@@ -155,12 +155,11 @@ void runInfo(const InfoArguments& arguments) {
 void addInfoCommand(CLI::App& program) {
   auto arguments = std::make_shared<InfoArguments>();
   CLI::App* command = program.add_subcommand("info", "Print what a map holds");
-  command->description(
-      "Prints what a map holds: size, extent, classes, scans, options and where it comes from.\n"
-      "The whole file is checked on the way; a damaged one is an error.");
   command->add_option("MAP", arguments->file, "map file (.csom)")->required();
   command->add_flag("--json", arguments->json, "print JSON");
   command->footer(
+      "Prints what a map holds: size, extent, classes, scans, options and where it comes from.\n"
+      "The whole file is checked on the way; a damaged one is an error.\n\n"
       "Examples:\n"
       "  csom info out/map.csom\n"
       "  csom info out/map.csom --json | jq '.classes[] | select(.voxels > 0) | .name'");

@@ -57,15 +57,14 @@ void runMerge(const MergeArguments& arguments) {
 void addMergeCommand(CLI::App& program) {
   auto arguments = std::make_shared<MergeArguments>();
   CLI::App* command = program.add_subcommand("merge", "Add maps of parts into one");
-  command->description(
-      "Adds maps into one, exactly: the result is the map that one run over all scans would have\n"
-      "made, in whatever order the maps are given. They must have the same resolution, label set\n"
-      "and prior, and lie in the same frame.");
   command->add_option("MAPS", arguments->inputs, "map files (.csom), two or more")
       ->required()
       ->expected(2, CLI::detail::expected_max_vector_size);
   command->add_option("-o,--output", arguments->output, "map file to write")->required();
   command->footer(
+      "Adds maps into one, exactly: the result is the map that one run over all scans would have\n"
+      "made, in whatever order the maps are given. They must have the same resolution, label set\n"
+      "and prior, and lie in the same frame.\n\n"
       "Example:\n"
       "  csom merge monday/map.csom tuesday/map.csom -o both.csom");
   command->callback([arguments] { runMerge(*arguments); });

@@ -205,8 +205,6 @@ void parseMaxRange(const std::string& text, QueryArguments& arguments) {
 void addQueryCommand(CLI::App& program) {
   auto arguments = std::make_shared<QueryArguments>();
   CLI::App* command = program.add_subcommand("query", "Ask a map about a point, a ray or a box");
-  command->description(
-      "Asks a map about one point, one ray or one box. Numbers are metres in the map frame.");
   command->add_option("MAP", arguments->file, "map file (.csom)")->required();
   CLI::Option* point = command->add_option_function<std::string>(
       "--point",
@@ -229,6 +227,7 @@ void addQueryCommand(CLI::App& program) {
       ->needs(ray);
   command->add_flag("--json", arguments->json, "print JSON");
   command->footer(
+      "Asks a map about one point, one ray or one box. Numbers are metres in the map frame.\n\n"
       "Examples:\n"
       "  csom query out/map.csom --point 12.3,-4,0.5\n"
       "  csom query out/map.csom --ray 0,0,1.7,1,0,0 --max-range 50\n"
