@@ -3,7 +3,6 @@
 #include <csom/io/MapFile.h>
 #include <csom/report/MapFigures.h>
 
-#include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -110,9 +109,8 @@ void printClasses(const MapDocument& document, const MapFigures& figures) {
               "probability");
   for (const ClassFigures& c : figures.classes) {
     if (c.voxels == 0) continue;
-    const std::string share = c.id == kFreeClass ? "" : toText(0.1 * std::round(1000 * c.share));
-    std::printf("  %3d  %-20s %10zu %12.2f %6s%% %12.3f\n", c.id, c.name.c_str(), c.voxels,
-                c.volume, share.c_str(), c.mean_probability);
+    std::printf("  %3d  %-20s %10zu %12.2f %6.1f%% %12.3f\n", c.id, c.name.c_str(), c.voxels,
+                c.volume, 100 * c.share, c.mean_probability);
   }
 }
 
