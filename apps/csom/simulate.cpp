@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // csom simulate: a world file becomes a rawlog, and its exact truth a map.
+#include <csom/core/Error.h>
 #include <csom/eval/GroundTruth.h>
 #include <csom/eval/Scenario.h>
 #include <csom/io/MapFile.h>
@@ -9,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 
 #include "Output.h"
 #include "Progress.h"
@@ -40,10 +42,17 @@ Scenario load(const SimulateArguments& arguments) {
   return scenario;
 }
 
-TruthSummary writeTruth(const Scenario& scenario, const std::string& file) {
-  const GroundTruth truth(scenario.world, scenario.truth.resolution);
+VoxelBox truthBox(const Scenario& scenario) {
+  try {
+    return GroundTruth(scenario.world, scenario.truth.resolution).voxelsIn(scenario.truth.region);
+  } catch (const std::invalid_argument& error) {
+    throw ConfigError(scenario.file + ": truth: " + error.what());
+  }
+}
+
+TruthSummary writeTruth(const Scenario& scenario, const VoxelBox& box, const std::string& file) {
   MapDocument document;
-  document.map = truth.toMap(truth.voxelsIn(scenario.truth.region));
+  document.map = GroundTruth(scenario.world, scenario.truth.resolution).toMap(box);
   document.labels = scenario.world.labels();
   document.meta["created_by"] = "csom simulate " CSOM_VERSION;
   document.meta["world"] = scenario.file;
@@ -91,6 +100,7 @@ void printAsJson(const SimulateArguments& arguments, std::uint64_t seed,
 
 void simulate(const SimulateArguments& arguments) {
   const Scenario scenario = load(arguments);
+  const VoxelBox truth_box = truthBox(scenario);
   SimulationSummary summary;
   {
     Progress progress("simulating");
@@ -99,7 +109,7 @@ void simulate(const SimulateArguments& arguments) {
                        [&](std::size_t done, std::size_t total) { progress.update(done, total); });
   }
   std::optional<TruthSummary> truth;
-  if (!arguments.truth.empty()) truth = writeTruth(scenario, arguments.truth);
+  if (!arguments.truth.empty()) truth = writeTruth(scenario, truth_box, arguments.truth);
   if (arguments.json) {
     printAsJson(arguments, scenario.seed, summary, truth);
   } else {

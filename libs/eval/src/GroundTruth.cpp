@@ -17,11 +17,20 @@ using Eigen::Vector3d;
 /// Evidence 1, the mass that a point at the very centre of a voxel would give.
 constexpr auto kTruthCount = static_cast<std::uint32_t>(1 / kCountQuantum);
 
-/// Cells of a voxel along each axis, and with one more ring of cells around it.
-constexpr int kCells = 4;
-constexpr int kPadded = kCells + 2;
+/// Lattice points of a voxel along each axis, and with one more ring of points around it.
+constexpr int kPoints = 5;
+constexpr int kPadded = kPoints + 2;
 
-/// The classes at the centres of a voxel's cells and of the ring around them.
+/// Where lattice point i (−1 … kPoints) lies along an edge of length 1. The outermost points of the
+/// voxel lie just inside, so that a solid that only shares a face with it does not count.
+double latticePosition(int i) {
+  constexpr double kInset = 1e-6;
+  const double position = static_cast<double>(i) / (kPoints - 1);
+  const bool inside = i >= 0 && i < kPoints;
+  return inside ? std::clamp(position, kInset, 1 - kInset) : position;
+}
+
+/// The classes at the lattice points of a voxel and of the ring around them.
 class Lattice {
  public:
   ClassId& at(int x, int y, int z) { return classes_[index(x, y, z)]; }
@@ -32,7 +41,7 @@ class Lattice {
   }
 
  private:
-  /// −1 ≤ x, y, z ≤ kCells
+  /// −1 ≤ x, y, z ≤ kPoints
   static std::size_t index(int x, int y, int z) {
     return static_cast<std::size_t>((x + 1) + kPadded * ((y + 1) + kPadded * (z + 1)));
   }
@@ -42,7 +51,7 @@ class Lattice {
 };
 
 template <class Visit>
-void forEachCell(int first, int last, Visit&& visit) {
+void forEachPoint(int first, int last, Visit&& visit) {
   for (int z = first; z <= last; ++z)
     for (int y = first; y <= last; ++y)
       for (int x = first; x <= last; ++x) visit(x, y, z);
@@ -91,20 +100,20 @@ TruthVoxel GroundTruth::classify(const VoxelIndex& voxel,
 
 TruthVoxel GroundTruth::classifyOnLattice(const Vector3d& corner,
                                           const std::vector<int>& solids) const {
-  const double cell = grid_.resolution() / kCells;
   Lattice lattice;
-  int cells_in_solids = 0;
-  forEachCell(-1, kCells, [&](int x, int y, int z) {
-    lattice.at(x, y, z) = world_.classAt(corner + cell * Vector3d(x + 0.5, y + 0.5, z + 0.5));
+  forEachPoint(-1, kPoints, [&](int x, int y, int z) {
+    const Vector3d at(latticePosition(x), latticePosition(y), latticePosition(z));
+    lattice.at(x, y, z) = world_.classAt(corner + grid_.resolution() * at);
   });
+  int points_in_solids = 0;
   std::array<int, kMaxClasses> exposed{};
-  forEachCell(0, kCells - 1, [&](int x, int y, int z) {
+  forEachPoint(0, kPoints - 1, [&](int x, int y, int z) {
     const ClassId id = lattice.at(x, y, z);
     if (id == kFreeClass) return;
-    ++cells_in_solids;
+    ++points_in_solids;
     if (lattice.isExposed(x, y, z)) ++exposed[id];
   });
-  if (cells_in_solids == kCells * kCells * kCells) return {TruthState::Interior, kFreeClass};
+  if (points_in_solids == kPoints * kPoints * kPoints) return {TruthState::Interior, kFreeClass};
   const auto most = std::max_element(exposed.begin(), exposed.end());
   if (*most > 0) return {TruthState::Occupied, static_cast<ClassId>(most - exposed.begin())};
   return {TruthState::Occupied, world_.solids()[static_cast<std::size_t>(solids.back())].class_id};
@@ -121,6 +130,14 @@ VoxelBox GroundTruth::voxelsIn(const AlignedBox3d& region) const {
                      {down(hi.x()), down(hi.y()), down(hi.z())}};
   if (box.min.x > box.max.x || box.min.y > box.max.y || box.min.z > box.max.z)
     throw std::invalid_argument("no voxel centre lies in the region");
+  const double voxels =
+      (box.max.x - box.min.x + 1.0) * (box.max.y - box.min.y + 1.0) * (box.max.z - box.min.z + 1.0);
+  if (voxels > kMaxVoxels) {
+    std::ostringstream text;
+    text << "region has " << voxels << " voxels of " << grid_.resolution() << " m, at most "
+         << kMaxVoxels << " are possible; make it smaller or the voxels larger";
+    throw std::invalid_argument(text.str());
+  }
   return box;
 }
 

@@ -29,8 +29,9 @@ PlanarPose rounded(const PlanarPose& pose) {
   return {roundTo(pose.x, 1e-6), roundTo(pose.y, 1e-6), roundTo(pose.yaw, 1e-7)};
 }
 
-[[noreturn]] void failAt(std::size_t waypoint, const std::string& reason) {
-  throw std::invalid_argument("waypoint " + std::to_string(waypoint + 1) + ": " + reason);
+[[noreturn]] void failOnLeg(std::size_t leg, const std::string& reason) {
+  throw std::invalid_argument("between waypoints " + std::to_string(leg + 1) + " and " +
+                              std::to_string(leg + 2) + ": " + reason);
 }
 
 }  // namespace
@@ -46,14 +47,14 @@ RobotPath RobotPath::drive(const std::vector<Vector2d>& waypoints, double turn_r
   double used = 0;  // metres of the current leg that the last corner's arc has taken
   for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
     const Vector2d leg = waypoints[i + 1] - waypoints[i];
-    if (!(leg.norm() > 0)) failAt(i + 1, "is the same as the one before");
+    if (!(leg.norm() > 0)) failOnLeg(i, "no distance; remove one of them");
     const Vector2d direction = leg.normalized();
     const bool last = i + 2 == waypoints.size();
     const Vector2d next = last ? direction : (waypoints[i + 2] - waypoints[i + 1]).eval();
     const double turn = turnBetween(direction, next);
     const double cut = turn_radius * std::tan(std::abs(turn) / 2);
     if (!(used + cut <= leg.norm()))
-      failAt(i + 1, "an arc of turn_radius does not fit; move it or lower turn_radius");
+      failOnLeg(i, "too short for the arcs at its ends; lengthen it or lower turn_radius");
 
     const Vector2d start = waypoints[i] + used * direction;
     path.append({start.x(), start.y(), headingOf(direction)}, leg.norm() - used - cut, 0);

@@ -17,6 +17,9 @@ namespace {
 using detail::YamlReader;
 using Eigen::Vector3d;
 
+/// A world file that asks for more is taken for a slip of the pen.
+constexpr double kMaxObservations = 1e6;
+
 constexpr double kDegree = 3.14159265358979323846 / 180;
 /// A `ground` is a slab of this thickness below its surface [m].
 constexpr double kGroundThickness = 0.2;
@@ -212,7 +215,7 @@ SensorModel readSensor(const YAML::Node& node, const std::string& file) {
   return model;
 }
 
-std::vector<SensorModel> readSensors(YamlReader& reader, const std::string& file) {
+std::vector<SensorModel> readSensors(YamlReader& reader, const std::string& file, double duration) {
   std::vector<SensorModel> sensors;
   std::set<std::string> labels;
   for (const YAML::Node& node : reader.list("sensors")) {
@@ -220,6 +223,10 @@ std::vector<SensorModel> readSensors(YamlReader& reader, const std::string& file
     const std::string& label = mountOf(sensors.back()).label;
     if (!labels.insert(label).second)
       reader.failAt(node, "two sensors have the label '" + label + "'");
+    if (mountOf(sensors.back()).rate * duration > kMaxObservations)
+      reader.failAt(node, "sensor '" + label + "': its rate and the " + std::to_string(duration) +
+                              " s of the robot's path make more than a million observations; "
+                              "lower the rate or shorten the path");
   }
   return sensors;
 }
@@ -277,8 +284,9 @@ Scenario loadScenario(const std::string& file) {
 
   const auto seed = static_cast<std::uint64_t>(
       reader.integer("seed", 0, std::numeric_limits<long long>::max(), 1));
-  Scenario scenario{file,     World(labels, std::move(solids)), path, readSensors(reader, file),
-                    odometry, readTruth(reader.map("truth")),   seed};
+  Scenario scenario{
+      file,     World(labels, std::move(solids)), path, readSensors(reader, file, path.duration()),
+      odometry, readTruth(reader.map("truth")),   seed};
   reader.finish();
   return scenario;
 }

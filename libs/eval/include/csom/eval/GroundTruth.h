@@ -28,10 +28,10 @@ struct TruthVoxel {
 ///
 ///  1. no solid has a point inside the voxel → free;
 ///  2. one solid does: interior if it holds the whole voxel, else occupied by its class;
-///  3. several do: they are looked at on a lattice of 4×4×4 cells. Every cell in a solid →
-///     interior; else occupied by the class with the most *exposed* cells (in a solid, with a face
-///     neighbour in free space; ties: the lower id). If they reach in less than the lattice can
-///     see, the solid listed last decides.
+///  3. several do: they are looked at on a lattice of 5×5×5 points, from border to border. Every
+///     point in a solid → interior; else occupied by the class with the most *exposed* points (in a
+///     solid, with a neighbour in free space; ties: the lower id). If they reach in less than the
+///     lattice can see, the solid listed last decides.
 ///
 /// A noise-free sensor of endless density would hit exactly the occupied voxels whose surface it
 /// can reach. Keeps a reference to the world, which must outlive it. Thread-safe.
@@ -44,8 +44,10 @@ class GroundTruth {
   TruthVoxel at(const VoxelIndex& voxel) const;
 
   /// The voxels whose centre lies in `region`. Throws std::invalid_argument if there are none, or
-  /// if they lie beyond what voxel indices can address.
+  /// if they lie beyond what voxel indices can address, or are more than kMaxVoxels.
   VoxelBox voxelsIn(const Eigen::AlignedBox3d& region) const;
+
+  static constexpr double kMaxVoxels = 1e9;
 
   /// The truth of a box of voxels as a map: an occupied voxel has evidence 1 for its class, a free
   /// one evidence 1 for class 0, an interior one is unknown.
