@@ -219,5 +219,21 @@ TEST_F(MapDefinition, dumpShowsEveryKey) {
     EXPECT_THAT(text.str(), HasSubstr(key));
 }
 
+TEST(IniReference, listsEveryKeyWithItsDefault) {
+  std::ostringstream text;
+  text << std::ifstream(CSOM_SOURCE_DIR "/docs/ini-reference.md").rdbuf();
+  const Options defaults;
+  visitOptions(defaults, [&](const std::string& key, const auto& field, auto, auto) {
+    if (key == "number_of_classes") return;
+    EXPECT_THAT(text.str(), HasSubstr("| `" + key + "` | " + toString(field) + " |"));
+  });
+  const CSemanticContinuousMap map;
+  const auto& likelihood = map.likelihoodOptions;
+  EXPECT_THAT(text.str(),
+              AllOf(HasSubstr("| `decimation` | " + toString(likelihood.decimation) + " |"),
+                    HasSubstr("| `max_distance` | " + toString(likelihood.max_distance) + " |"),
+                    HasSubstr("| `sigma` | " + toString(likelihood.sigma) + " |")));
+}
+
 }  // namespace
 }  // namespace csom

@@ -57,7 +57,7 @@ mrpt::obs::CObservation::Ptr firstOf(const std::string& rawlog) {
   const std::string file = "/usr/share/mrpt/datasets/" + rawlog;
   mrpt::obs::CRawlog log;
   if (!log.loadFromRawLogFile(file) || log.size() == 0)
-    throw std::runtime_error(file + " is missing: install the package mrpt-apps");
+    throw std::runtime_error(file + " is missing: install the package mrpt-common");
   return log.getAsObservation(0);
 }
 

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// MRPT's own programs, started as processes with the plug-in, leave the maps that they should.
+#include <csom/maps/CSemanticContinuousMap.h>
+#include <csom/maps/ObservationAdapter.h>
+#include <csom/maps/PoseRounding.h>
+#include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DPDF.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/ProgramRunner.h"
+
+namespace csom::test {
+namespace {
+
+using mrpt::maps::CSimpleMap;
+using testing::HasSubstr;
+
+const std::string kConfigs = CSOM_SOURCE_DIR "/config/";
+const std::string kCampusLog = CSOM_SOURCE_DIR "/rawlogs/campus.rawlog";
+const std::string kDataSets = "/usr/share/mrpt/datasets/";  // of the package mrpt-common
+const std::string kMapSuffix = "_csom__CSemanticContinuousMap_00.csom";
+
+enum class Plugin { Preloaded, Absent };
+
+/// Runs a program of MRPT in `folder`, for two minutes at most.
+ProgramResult runStock(const std::string& folder, std::vector<std::string> arguments,
+                       Plugin plugin = Plugin::Preloaded) {
+  std::vector<std::string> environment;
+  if (plugin == Plugin::Preloaded) environment.push_back("LD_PRELOAD=" CSOM_PLUGIN);
+  arguments.insert(arguments.begin(), {"sh", "-c", "cd \"$0\" && exec timeout 120 \"$@\"", folder});
+  return runProgram(arguments, environment);
+}
+
+CSimpleMap loadSimpleMap(const std::string& file) {
+  CSimpleMap frames;
+  if (!frames.loadFromFile(file)) throw std::runtime_error(file + " cannot be read");
+  return frames;
+}
+
+/// Calls visit(pose, observation) for every observation, in order.
+template <class Visitor>
+void forEachObservation(const CSimpleMap& frames, Visitor&& visit) {
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    mrpt::poses::CPose3DPDF::Ptr pose;
+    mrpt::obs::CSensoryFrame::Ptr frame;
+    frames.get(i, pose, frame);
+    for (const auto& observation : *frame) visit(pose->getMeanVal(), *observation);
+  }
+}
+
+std::size_t countOf(const CSimpleMap& frames,
+                    const mrpt::rtti::TRuntimeClassId* observation_class) {
+  std::size_t count = 0;
+  forEachObservation(frames, [&](const auto&, const mrpt::obs::CObservation& observation) {
+    if (observation.GetRuntimeClass()->derivedFrom(observation_class)) ++count;
+  });
+  return count;
+}
+
+/// The map of the same observations by a plain loop over the core.
+std::string digestOfDirectLoop(const CSimpleMap& frames, const std::string& config) {
+  const auto definition = CSemanticContinuousMap::definitionFromIni(config);
+  const auto& insertion = definition.insertionOpts;
+  const LabelRules rules(definition.labels, insertion.point_labels, insertion.unlabelled_class,
+                         insertion.scan_2d_class);
+  SemanticMap map(definition.options);
+  SelfLabelledAdapter adapter;
+  forEachObservation(frames, [&](const auto& pose, const mrpt::obs::CObservation& observation) {
+    const auto scans = adapter.adapt(observation, roundedPose(pose), rules);
+    if (!scans) return;
+    for (const AdaptedScan& adapted : *scans) map.insert(adapted.scan);
+  });
+  return mapDigest(map);
+}
+
+nlohmann::json infoOf(const std::string& map_file) {
+  const ProgramResult info = csomProgram({"info", map_file, "--json"});
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  return nlohmann::json::parse(info.out);
+}
+
+TEST(Observations2map, mapsADataSetOfMrpt) {
+  const TempFolder folder;
+  const std::string frames_file = kDataSets + "localization_demo.simplemap.gz";
+  const std::string config = kConfigs + "mrpt/observations2map.ini";
+  const ProgramResult run =
+      runStock(folder.path(), {"observations2map", config, frames_file, "out_"});
+  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+  EXPECT_EQ(run.err, "");
+
+  const CSimpleMap frames = loadSimpleMap(frames_file);
+  const MapDocument document = loadMap(folder / ("out_" + kMapSuffix));
+  EXPECT_EQ(document.scans.size(), countOf(frames, CLASS_ID(mrpt::obs::CObservation2DRangeScan)));
+  EXPECT_EQ(document.map.options().free_space, FreeSpace::Raycast) << "options of the ini";
+  EXPECT_EQ(mapDigest(document.map), digestOfDirectLoop(frames, config));
+  EXPECT_EQ(infoOf(folder / ("out_" + kMapSuffix)).at("digest"), mapDigest(document.map));
+}
+
+TEST(Observations2map, makesTheMapOfCsomMap) {
+  const TempFolder folder;
+  const std::string config = kConfigs + "campus.ini";
+  const ProgramResult mapping =
+      csomProgram({"map", kCampusLog, "-c", config, "-o", folder / "out", "--no-html",
+                   "--write-simplemap", folder / "campus.simplemap"});
+  ASSERT_EQ(mapping.exit_code, 0) << mapping.err;
+  const ProgramResult run =
+      runStock(folder.path(), {"observations2map", config, folder / "campus.simplemap", "stock_"});
+  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+
+  const MapDocument ours = loadMap(folder / "out/map.csom");
+  const MapDocument stock = loadMap(folder / ("stock_" + kMapSuffix));
+  EXPECT_EQ(stock.scans.size(), ours.scans.size());
+  EXPECT_GT(stock.scans.size(), 10u);
+  EXPECT_EQ(mapDigest(stock.map), mapDigest(ours.map));
+  EXPECT_EQ(digestOfDirectLoop(loadSimpleMap(folder / "campus.simplemap"), config),
+            mapDigest(ours.map));
+}
+
+TEST(Observations2map, warnsOfUnknownKeys) {
+  const TempFolder folder;
+  std::ofstream(folder / "map.ini")
+      << "[MappingApplication]\nsemanticContinuousMap_count = 1\n"
+         "[MappingApplication_semanticContinuousMap_00_creationOpts]\nresolutoin = 0.3\n";
+  const ProgramResult run = runStock(
+      folder.path(),
+      {"observations2map", "map.ini", kDataSets + "localization_demo.simplemap.gz", "out_"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("map.ini [MappingApplication_semanticContinuousMap_00_"
+                                 "creationOpts] resolutoin: unknown key"));
+}
+
+TEST(Observations2map, stopsAtWrongValues) {
+  const TempFolder folder;
+  std::ofstream(folder / "map.ini")
+      << "[MappingApplication]\nsemanticContinuousMap_count = 1\n"
+         "[MappingApplication_semanticContinuousMap_00_creationOpts]\nresolution = fine\n";
+  const ProgramResult run = runStock(
+      folder.path(),
+      {"observations2map", "map.ini", kDataSets + "localization_demo.simplemap.gz", "out_"});
+  EXPECT_NE(run.exit_code, 0);
+  EXPECT_THAT(run.out + run.err, HasSubstr("resolution"));
+  EXPECT_FALSE(std::filesystem::exists(folder / ("out_" + kMapSuffix)));
+}
+
+// docs/mrpt.md tells users so.
+TEST(Observations2map, withoutThePluginNoMapAndNoError) {
+  const TempFolder folder;
+  const ProgramResult run = runStock(folder.path(),
+                                     {"observations2map", kConfigs + "mrpt/observations2map.ini",
+                                      kDataSets + "localization_demo.simplemap.gz", "out_"},
+                                     Plugin::Absent);
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / ("out_" + kMapSuffix)));
+}
+
+/// Runs rbpf-slam and holds its final map against the key frames that it stored beside it.
+void expectMapOfKeyFrames(const std::string& config, const std::string& rawlog,
+                          const mrpt::rtti::TRuntimeClassId* observation_class) {
+  const TempFolder folder;
+  const ProgramResult run = runStock(folder.path(), {"rbpf-slam", config, rawlog});
+  ASSERT_EQ(run.exit_code, 0) << run.out.substr(0, 2000) << run.err;
+
+  const std::string map_file = folder / ("rbpf-slam-out/finalMap" + kMapSuffix);
+  const MapDocument document = loadMap(map_file);
+  const CSimpleMap frames = loadSimpleMap(folder / "rbpf-slam-out/_finalmap_.simplemap");
+  EXPECT_GT(document.scans.size(), 5u);
+  EXPECT_EQ(document.scans.size(), countOf(frames, observation_class));
+  EXPECT_GT(document.map.knownVoxelCount(), 1000u);
+  EXPECT_EQ(infoOf(map_file).at("digest"), mapDigest(document.map));
+}
+
+TEST(RbpfSlam, mapsADataSetOfMrpt) {
+  expectMapOfKeyFrames(kConfigs + "mrpt/rbpf-slam.ini",
+                       kDataSets + "2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog",
+                       CLASS_ID(mrpt::obs::CObservation2DRangeScan));
+}
+
+TEST(RbpfSlam, mapsTheCampusDrive) {
+  expectMapOfKeyFrames(kConfigs + "mrpt/rbpf-slam-campus.ini", kCampusLog,
+                       CLASS_ID(mrpt::obs::CObservationVelodyneScan));
+}
+
+/// A log with one laser scan and the map of it.
+void writeLogWithMap(const std::string& file) {
+  auto scan = mrpt::obs::CObservation2DRangeScan::Create();
+  scan->sensorLabel = "LASER";
+  scan->timestamp = mrpt::Clock::fromDouble(1.5e9);
+  scan->resizeScanAndAssign(181, 5.0f, true);
+  CSemanticContinuousMap map;
+  map.insertObservation(*scan);
+  mrpt::io::CFileGZOutputStream stream(file);
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  archive << *scan << map;
+}
+
+TEST(RawlogEdit, readsLogsWithMapsInThem) {
+  const TempFolder folder;
+  writeLogWithMap(folder / "map.rawlog");
+  const ProgramResult run =
+      runStock(folder.path(), {"rawlog-edit", "-p", CSOM_PLUGIN, "-i", "map.rawlog", "--info"},
+               Plugin::Absent);
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, HasSubstr("LASER"));
+  EXPECT_THAT(run.out + run.err, testing::Not(HasSubstr("not registered")));
+  EXPECT_THAT(run.out + run.err, testing::Not(HasSubstr("exception")));
+
+  const ProgramResult without =
+      runStock(folder.path(), {"rawlog-edit", "-i", "map.rawlog", "--info"}, Plugin::Absent);
+  EXPECT_THAT(without.out + without.err, HasSubstr("not registered"));
+}
+
+}  // namespace
+}  // namespace csom::test
