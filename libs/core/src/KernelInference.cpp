@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csom/core/ClassEntropy.h>
 #include <csom/core/ContextEntropy.h>
-#include <csom/core/Kernel.h>
 #include <csom/core/KernelInference.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 
 #include "BlockNeighbours.h"
 #include "BlockWindow.h"
-#include "LaneSums.h"
+#include "KernelMass.h"
 #include "Parallel.h"
 #include "SortedKeys.h"
 #include "VoxelRuns.h"
@@ -21,17 +19,10 @@ namespace csom {
 namespace {
 
 using detail::kLanes;
-using detail::Lanes;
+using detail::LaneGroup;
 
 /// A class entropy up to which a block listens to itself alone (Neighbourhood::ExtendedBlock).
 constexpr float kPureBlockEntropy = 0.3F;
-
-/// Eight voxels of a block (one, if the block is a voxel): positions of their centres relative to
-/// the block's lower corner [m].
-struct LaneGroup {
-  Lanes x{}, y{}, z{};
-  std::array<VoxelIndex, kLanes> voxel{};  ///< relative to the block's first voxel
-};
 
 std::vector<LaneGroup> laneGroups(int block_depth, double resolution) {
   const int side = 1 << (block_depth - 1);
@@ -53,29 +44,6 @@ std::vector<LaneGroup> laneGroups(int block_depth, double resolution) {
         groups.push_back(group);
       }
   return groups;
-}
-
-/// Kernel of eight voxels for a point at (px, py, pz). False, and nothing written, if none of them
-/// is within the kernel length.
-template <class KernelFunction>
-inline bool kernelLanes(const LaneGroup& group, float px, float py, float pz, float length,
-                        float inverse_length, KernelFunction kernel, Lanes& out) {
-  Lanes t;
-  const float length_squared = length * length;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const float dx = group.x[lane] - px;
-    const float dy = group.y[lane] - py;
-    const float dz = group.z[lane] - pz;
-    t[lane] = dx * dx + dy * dy + dz * dz;
-  }
-  float smallest = t[0];
-  for (std::size_t lane = 1; lane < kLanes; ++lane)
-    smallest = t[lane] < smallest ? t[lane] : smallest;
-  if (!(smallest < length_squared)) return false;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) t[lane] = std::sqrt(t[lane]) * inverse_length;
-  for (std::size_t lane = 0; lane < kLanes; ++lane)
-    out[lane] = t[lane] < 1.0F ? kernel(t[lane]) : 0.0F;
-  return true;
 }
 
 /// The filled blocks of one chunk: filled[begin] … filled[end−1].
@@ -120,6 +88,7 @@ class Inference {
   struct Scratch {
     explicit Scratch(int classes) : sums(classes), class_mass(static_cast<std::size_t>(classes)) {}
     detail::BlockWindow window;
+    detail::NearbyPoints nearby;
     detail::LaneSums sums;
     detail::VoxelRuns runs;
     std::vector<double> class_mass;
@@ -171,15 +140,12 @@ class Inference {
                           blocks_per_chunk_ + 2 * reach_);
     for (std::size_t i = task.begin; i < task.end; ++i) {
       const float entropy = classEntropyOf(filled_[i], scratch.class_mass);
+      const float length = kernelLength(entropy, options_);
+      gatherNeighbourhood(filled_[i], entropy, length, scratch);
       for (const LaneGroup& group : groups_) {
         scratch.sums.reset();
-        if (options_.kernel == Kernel::Sparse) {
-          sumNeighbourhood(filled_[i], entropy, group, scratch,
-                           [](float t) { return sparseKernel(t); });
-        } else {
-          sumNeighbourhood(filled_[i], entropy, group, scratch,
-                           [](float t) { return linearKernel(t); });
-        }
+        detail::addKernelMass(options_.kernel, group, scratch.nearby, scan_, length,
+                              options_.number_of_classes, scratch.sums);
         store(filled_[i].index, group, scratch);
       }
     }
@@ -201,15 +167,14 @@ class Inference {
     return classEntropy(class_mass);
   }
 
-  template <class KernelFunction>
-  void sumNeighbourhood(const FilledBlock& block, float entropy, const LaneGroup& group,
-                        Scratch& scratch, KernelFunction kernel) const {
-    const float length = kernelLength(entropy, options_);
+  /// Finds the points that the block's voxels listen to, z-major by block.
+  void gatherNeighbourhood(const FilledBlock& block, float entropy, float length,
+                           Scratch& scratch) const {
+    scratch.nearby.reset(block_edge_, static_cast<float>(options_.resolution / 2), length);
     if (options_.neighbourhood == Neighbourhood::ExtendedBlock) {
       const bool alone = entropy <= kPureBlockEntropy;
       for (const detail::BlockOffset& d : neighbours_) {
-        if (!alone || d.kind() == 0)
-          sumRow(block.index, d.x, d.x, d.y, d.z, length, group, scratch, kernel);
+        if (!alone || d.kind() == 0) gatherRow(block.index, d.x, d.x, d.y, d.z, scratch);
       }
       return;
     }
@@ -220,7 +185,7 @@ class Inference {
         const float yz = gapSquared(y) + gapSquared(z);
         int x = -1;
         while (x < reach && yz + gapSquared(x + 1) < limit) ++x;
-        if (x >= 0) sumRow(block.index, -x, x, y, z, length, group, scratch, kernel);
+        if (x >= 0) gatherRow(block.index, -x, x, y, z, scratch);
       }
   }
 
@@ -233,29 +198,16 @@ class Inference {
     return gap * gap;
   }
 
-  /// Adds the points of the blocks from x_first to x_last (offsets from `block`) of one row.
-  template <class KernelFunction>
-  void sumRow(const BlockIndex& block, int x_first, int x_last, int y, int z, float length,
-              const LaneGroup& group, Scratch& scratch, KernelFunction kernel) const {
+  /// The points of the blocks from x_first to x_last (offsets from `block`) of one row.
+  void gatherRow(const BlockIndex& block, int x_first, int x_last, int y, int z,
+                 Scratch& scratch) const {
     const std::uint32_t* starts =
         scratch.window.pointsOf(block.x + x_first, block.y + y, block.z + z);
-    const float oy = static_cast<float>(y) * block_edge_;
-    const float oz = static_cast<float>(z) * block_edge_;
-    const float inverse_length = 1.0F / length;
-    for (int x = x_first; x <= x_last; ++x, ++starts) {
-      const float ox = static_cast<float>(x) * block_edge_;
-      for (std::uint32_t i = starts[0]; i < starts[1]; ++i) {
-        const TrainingPoint& p = scan_.points[i];
-        Lanes mass;
-        if (!kernelLanes(group, p.x + ox, p.y + oy, p.z + oz, length, inverse_length, kernel, mass))
-          continue;
-        if (scan_.scores.empty()) {
-          scratch.sums.add(p.label, mass);
-        } else {
-          scratch.sums.add(scoresOf(i), mass);
-        }
-      }
-    }
+    if (starts[0] == starts[x_last - x_first + 1]) return;
+    for (int x = x_first; x <= x_last; ++x, ++starts)
+      scratch.nearby.add(scan_.points.data(), starts[0], starts[1],
+                         static_cast<float>(x) * block_edge_, static_cast<float>(y) * block_edge_,
+                         static_cast<float>(z) * block_edge_);
   }
 
   void store(const BlockIndex& block, const LaneGroup& group, Scratch& scratch) const {

@@ -7,14 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
-namespace csom::detail {
+#include "Lanes.h"
 
-/// SIMD lanes are voxels: each lane adds its points one after the other, so that the sum does not
-/// depend on the width of the processor's vectors.
-constexpr std::size_t kLanes = 8;
-using Lanes = std::array<float, kLanes>;
+namespace csom::detail {
 
 /// Class sums of the voxels of eight lanes. Single precision, carried over to double precision
 /// every kCarryInterval points, so that a million points at one place still sum up right.
@@ -23,13 +21,13 @@ class LaneSums {
   explicit LaneSums(int number_of_classes)
       : sums_(static_cast<std::size_t>(number_of_classes)),
         carried_(static_cast<std::size_t>(number_of_classes)),
-        touched_flag_(static_cast<std::size_t>(number_of_classes), false) {}
+        touched_flag_(static_cast<std::size_t>(number_of_classes)) {}
 
   void reset() {
     for (const ClassId k : touched_) {
-      sums_[k].fill(0.0F);
+      sums_[k].mass = Lanes{};
       carried_[k].fill(0.0);
-      touched_flag_[k] = false;
+      touched_flag_[k] = 0;
     }
     touched_.clear();
     added_ = 0;
@@ -37,7 +35,7 @@ class LaneSums {
 
   void add(ClassId k, const Lanes& mass) {
     touch(k);
-    for (std::size_t lane = 0; lane < kLanes; ++lane) sums_[k][lane] += mass[lane];
+    sums_[k].mass += mass;
     countAddition();
   }
 
@@ -47,7 +45,7 @@ class LaneSums {
       const float score = scores[k];
       if (score <= 0) continue;
       touch(static_cast<ClassId>(k));
-      for (std::size_t lane = 0; lane < kLanes; ++lane) sums_[k][lane] += mass[lane] * score;
+      sums_[k].mass += mass * score;
     }
     countAddition();
   }
@@ -65,9 +63,13 @@ class LaneSums {
  private:
   static constexpr int kCarryInterval = 256;
 
+  struct alignas(kLaneAlignment) Sum {
+    Lanes mass;
+  };
+
   void touch(ClassId k) {
-    if (touched_flag_[k]) return;
-    touched_flag_[k] = true;
+    if (touched_flag_[k] != 0) return;
+    touched_flag_[k] = 1;
     touched_.push_back(k);
   }
   void countAddition() {
@@ -77,15 +79,15 @@ class LaneSums {
   void carry() {
     for (const ClassId k : touched_) {
       for (std::size_t lane = 0; lane < kLanes; ++lane)
-        carried_[k][lane] += static_cast<double>(sums_[k][lane]);
-      sums_[k].fill(0.0F);
+        carried_[k][lane] += static_cast<double>(sums_[k].mass[lane]);
+      sums_[k].mass = Lanes{};
     }
     added_ = 0;
   }
 
-  std::vector<Lanes> sums_;
+  std::vector<Sum> sums_;
   std::vector<std::array<double, kLanes>> carried_;
-  std::vector<bool> touched_flag_;
+  std::vector<std::uint8_t> touched_flag_;
   std::vector<ClassId> touched_;
   int added_ = 0;
 };

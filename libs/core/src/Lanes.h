@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Eight voxels side by side, the width of the hot loop.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+namespace csom::detail {
+
+/// SIMD lanes are voxels: each lane adds its points one after the other, so that a sum does not
+/// depend on the width of the processor's vectors. The compiler turns this type into one AVX
+/// register or two SSE registers.
+constexpr std::size_t kLanes = 8;
+using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+/// What structs of lanes must ask for: the compiler takes less where it compiles without AVX.
+constexpr std::size_t kLaneAlignment = sizeof(Lanes);
+
+inline Lanes squareRoot(const Lanes& v) {
+  Lanes root;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) root[lane] = std::sqrt(v[lane]);
+  return root;
+}
+
+// Functions marked with it are compiled for AVX2 too, and the processor chooses when the program
+// starts: one binary runs everywhere. No fused multiply-add in either, so the bits are the same.
+// Sanitizers intercept calls before such a choice can be made.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
+#define CSOM_EVERY_PROCESSOR __attribute__((target_clones("avx2", "default")))
+#else
+#define CSOM_EVERY_PROCESSOR
+#endif
+
+}  // namespace csom::detail
