@@ -6,13 +6,15 @@
 #include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDF.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <nlohmann/json.hpp>
 
-#include "apps/ProgramRunner.h"
+#include "apps/RunCsom.h"
+#include "io/IoFixtures.h"
 
 namespace csom::test {
 namespace {
@@ -32,8 +34,8 @@ ProgramResult runStock(const std::string& folder, std::vector<std::string> argum
                        Plugin plugin = Plugin::Preloaded) {
   std::vector<std::string> environment;
   if (plugin == Plugin::Preloaded) environment.push_back("LD_PRELOAD=" CSOM_PLUGIN);
-  arguments.insert(arguments.begin(), {"sh", "-c", "cd \"$0\" && exec timeout 120 \"$@\"", folder});
-  return runProgram(arguments, environment);
+  arguments.insert(arguments.begin(), {"-C", folder, "timeout", "120"});
+  return runProgram(folder, "env", arguments, environment);
 }
 
 CSimpleMap loadSimpleMap(const std::string& file) {
@@ -46,8 +48,8 @@ CSimpleMap loadSimpleMap(const std::string& file) {
 template <class Visitor>
 void forEachObservation(const CSimpleMap& frames, Visitor&& visit) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    mrpt::poses::CPose3DPDF::Ptr pose;
-    mrpt::obs::CSensoryFrame::Ptr frame;
+    mrpt::poses::CPose3DPDF::ConstPtr pose;
+    mrpt::obs::CSensoryFrame::ConstPtr frame;
     frames.get(i, pose, frame);
     for (const auto& observation : *frame) visit(pose->getMeanVal(), *observation);
   }
@@ -79,9 +81,10 @@ std::string digestOfDirectLoop(const CSimpleMap& frames, const std::string& conf
 }
 
 nlohmann::json infoOf(const std::string& map_file) {
-  const ProgramResult info = csomProgram({"info", map_file, "--json"});
-  EXPECT_EQ(info.exit_code, 0) << info.err;
-  return nlohmann::json::parse(info.out);
+  const TempFolder folder;
+  const ProgramResult info = runCsom(folder.path(), {"info", map_file, "--json"});
+  EXPECT_EQ(info.exit_code, 0) << info.errors;
+  return nlohmann::json::parse(info.output);
 }
 
 TEST(Observations2map, mapsADataSetOfMrpt) {
@@ -90,8 +93,8 @@ TEST(Observations2map, mapsADataSetOfMrpt) {
   const std::string config = kConfigs + "mrpt/observations2map.ini";
   const ProgramResult run =
       runStock(folder.path(), {"observations2map", config, frames_file, "out_"});
-  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
-  EXPECT_EQ(run.err, "");
+  ASSERT_EQ(run.exit_code, 0) << run.output << run.errors;
+  EXPECT_EQ(run.errors, "");
 
   const CSimpleMap frames = loadSimpleMap(frames_file);
   const MapDocument document = loadMap(folder / ("out_" + kMapSuffix));
@@ -105,12 +108,12 @@ TEST(Observations2map, makesTheMapOfCsomMap) {
   const TempFolder folder;
   const std::string config = kConfigs + "campus.ini";
   const ProgramResult mapping =
-      csomProgram({"map", kCampusLog, "-c", config, "-o", folder / "out", "--no-html",
-                   "--write-simplemap", folder / "campus.simplemap"});
-  ASSERT_EQ(mapping.exit_code, 0) << mapping.err;
+      runCsom(folder.path(), {"map", kCampusLog, "-c", config, "-o", folder / "out", "--no-html",
+                              "--write-simplemap", folder / "campus.simplemap"});
+  ASSERT_EQ(mapping.exit_code, 0) << mapping.errors;
   const ProgramResult run =
       runStock(folder.path(), {"observations2map", config, folder / "campus.simplemap", "stock_"});
-  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+  ASSERT_EQ(run.exit_code, 0) << run.output << run.errors;
 
   const MapDocument ours = loadMap(folder / "out/map.csom");
   const MapDocument stock = loadMap(folder / ("stock_" + kMapSuffix));
@@ -129,9 +132,9 @@ TEST(Observations2map, warnsOfUnknownKeys) {
   const ProgramResult run = runStock(
       folder.path(),
       {"observations2map", "map.ini", kDataSets + "localization_demo.simplemap.gz", "out_"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("map.ini [MappingApplication_semanticContinuousMap_00_"
-                                 "creationOpts] resolutoin: unknown key"));
+  EXPECT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr("map.ini [MappingApplication_semanticContinuousMap_00_"
+                                    "creationOpts] resolutoin: unknown key"));
 }
 
 TEST(Observations2map, stopsAtWrongValues) {
@@ -143,7 +146,7 @@ TEST(Observations2map, stopsAtWrongValues) {
       folder.path(),
       {"observations2map", "map.ini", kDataSets + "localization_demo.simplemap.gz", "out_"});
   EXPECT_NE(run.exit_code, 0);
-  EXPECT_THAT(run.out + run.err, HasSubstr("resolution"));
+  EXPECT_THAT(run.output + run.errors, HasSubstr("resolution"));
   EXPECT_FALSE(std::filesystem::exists(folder / ("out_" + kMapSuffix)));
 }
 
@@ -163,7 +166,7 @@ void expectMapOfKeyFrames(const std::string& config, const std::string& rawlog,
                           const mrpt::rtti::TRuntimeClassId* observation_class) {
   const TempFolder folder;
   const ProgramResult run = runStock(folder.path(), {"rbpf-slam", config, rawlog});
-  ASSERT_EQ(run.exit_code, 0) << run.out.substr(0, 2000) << run.err;
+  ASSERT_EQ(run.exit_code, 0) << run.output.substr(0, 2000) << run.errors;
 
   const std::string map_file = folder / ("rbpf-slam-out/finalMap" + kMapSuffix);
   const MapDocument document = loadMap(map_file);
@@ -205,13 +208,13 @@ TEST(RawlogEdit, readsLogsWithMapsInThem) {
       runStock(folder.path(), {"rawlog-edit", "-p", CSOM_PLUGIN, "-i", "map.rawlog", "--info"},
                Plugin::Absent);
   EXPECT_EQ(run.exit_code, 0);
-  EXPECT_THAT(run.out, HasSubstr("LASER"));
-  EXPECT_THAT(run.out + run.err, testing::Not(HasSubstr("not registered")));
-  EXPECT_THAT(run.out + run.err, testing::Not(HasSubstr("exception")));
+  EXPECT_THAT(run.output, HasSubstr("LASER"));
+  EXPECT_THAT(run.output + run.errors, testing::Not(HasSubstr("not registered")));
+  EXPECT_THAT(run.output + run.errors, testing::Not(HasSubstr("exception")));
 
   const ProgramResult without =
       runStock(folder.path(), {"rawlog-edit", "-i", "map.rawlog", "--info"}, Plugin::Absent);
-  EXPECT_THAT(without.out + without.err, HasSubstr("not registered"));
+  EXPECT_THAT(without.output + without.errors, HasSubstr("not registered"));
 }
 
 }  // namespace
