@@ -164,6 +164,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadLabelSet{"empty", "", "1", "must be a map"},
         BadLabelSet{"not yaml", "name: [1, 2\nx", "2", "no valid YAML"},
+        BadLabelSet{"deeply nested", std::string(100000, '['), "1", "no valid YAML"},
         BadLabelSet{"a list", "- a\n- b\n", "1", "must be a map"},
         BadLabelSet{"no name", "classes: []\n", "1", "lacks the key 'name'"},
         BadLabelSet{"no classes", "name: a\n", "1", "lacks the key 'classes'"},

@@ -119,8 +119,9 @@ std::int32_t chunkCoordinate(std::int64_t value) {
 }
 
 std::size_t maxRecordSize(int number_of_classes) {
-  const auto entries = static_cast<std::size_t>(kVoxelsPerChunk * number_of_classes);
-  return sizeof(Chunk::Header) + 5 * entries + 2 * kVoxelsPerChunk + 8;
+  constexpr std::size_t voxels = kVoxelsPerChunk;
+  const std::size_t entries = voxels * static_cast<std::size_t>(number_of_classes);
+  return sizeof(Chunk::Header) + 5 * entries + 2 * voxels + 8;
 }
 
 void readChunks(const Database& database, SemanticMap& map) {

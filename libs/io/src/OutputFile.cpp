@@ -17,7 +17,7 @@ namespace {
 /// Creates a new file NAME.tmpN beside `target` with the permissions that umask gives.
 std::string createBeside(const fs::path& target) {
   for (int attempt = 0;; ++attempt) {
-    const std::string path =
+    std::string path =
         target.string() + ".tmp" + std::to_string(::getpid()) + "-" + std::to_string(attempt);
     const int descriptor = ::open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor >= 0) {
