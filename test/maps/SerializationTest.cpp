@@ -43,8 +43,10 @@ std::map<std::string, std::string> asText(const Options& options) {
 
 CSemanticContinuousMap fullMap() {
   CSemanticContinuousMap map = roomMap();
+  map.announce_damaged = false;
   map.insertObservation(*roomCloud(0.3f), mrpt::poses::CPose3D(0.5, 0, 0, 0.1, 0, 0));
   map.insertObservation(mrpt::obs::CObservationPointCloud());
+  map.insertObservation(*testing::pointCloud({{1e30f, 0, 0}}, {40}));
   map.insertionOptions.unlabelled_class = "road";
   map.insertionOptions.scan_2d_class = "wall";
   map.likelihoodOptions.decimation = 3;
@@ -96,6 +98,8 @@ TEST(Serialization, carriesScanRecordsAndStatistics) {
     EXPECT_EQ(a.report.commit_ms, b.report.commit_ms);
   }
   EXPECT_EQ(copy.statistics().inserted, 2u);
+  EXPECT_EQ(copy.statistics().without_points, 1u);
+  EXPECT_EQ(copy.statistics().unused.points, 1u);
   EXPECT_EQ(copy.statistics().damaged, map.statistics().damaged);
   EXPECT_EQ(copy.statistics().why_damaged, map.statistics().why_damaged);
   EXPECT_EQ(copy.statistics().labels.labelled, map.statistics().labels.labelled);

@@ -63,6 +63,7 @@ CSemanticContinuousMap::CSemanticContinuousMap(const CSemanticContinuousMap& oth
       insertionOptions(other.insertionOptions),
       likelihoodOptions(other.likelihoodOptions),
       renderingOptions(other.renderingOptions),
+      announce_damaged(other.announce_damaged),
       map_(other.map_),
       labels_(other.labels_),
       scans_(other.scans_),
@@ -77,6 +78,7 @@ CSemanticContinuousMap& CSemanticContinuousMap::operator=(const CSemanticContinu
   insertionOptions = other.insertionOptions;
   likelihoodOptions = other.likelihoodOptions;
   renderingOptions = other.renderingOptions;
+  announce_damaged = other.announce_damaged;
   map_ = other.map_;
   labels_ = other.labels_;
   scans_ = other.scans_;
@@ -168,6 +170,7 @@ bool CSemanticContinuousMap::insertScan(const AdaptedScan& adapted) {
   ScanReport report = map_.insert(adapted.scan);
   if (report.points == report.rejectedTotal()) {
     ++statistics_.without_points;
+    statistics_.unused += report;
     return false;
   }
   ++statistics_.inserted;
@@ -186,6 +189,7 @@ void CSemanticContinuousMap::noteDamaged(const mrpt::obs::CObservation& observat
   const std::string name = observationName(observation);
   if (statistics_.damaged[name]++ > 0) return;
   statistics_.why_damaged[name] = why;
+  if (!announce_damaged) return;
   std::cerr << "csom: warning: " << name << " '" << observation.sensorLabel
             << "' is not inserted: " << why << " (further ones are only counted)\n";
 }

@@ -87,26 +87,6 @@ LabelCounts readLabelCounts(ByteReader& in) {
   return counts;
 }
 
-void write(ByteWriter& out, const InsertionStatistics& statistics) {
-  out.number(static_cast<std::uint64_t>(statistics.inserted));
-  out.number(static_cast<std::uint64_t>(statistics.without_points));
-  write(out, statistics.not_taken);
-  write(out, statistics.damaged);
-  write(out, statistics.why_damaged);
-  write(out, statistics.labels);
-}
-
-InsertionStatistics readStatistics(ByteReader& in) {
-  InsertionStatistics statistics;
-  statistics.inserted = in.number<std::uint64_t>();
-  statistics.without_points = in.number<std::uint64_t>();
-  statistics.not_taken = readCounts(in);
-  statistics.damaged = readCounts(in);
-  statistics.why_damaged = readTexts(in);
-  statistics.labels = readLabelCounts(in);
-  return statistics;
-}
-
 /// Calls visit(field) for every number of a report.
 template <class Report, class Visitor>
 void visitReport(Report& report, Visitor&& visit) {
@@ -123,6 +103,38 @@ void visitReport(Report& report, Visitor&& visit) {
   visit(report.commit_ms);
 }
 
+void write(ByteWriter& out, const ScanReport& report) {
+  visitReport(report, [&](const auto& field) { out.number(field); });
+}
+
+ScanReport readReport(ByteReader& in) {
+  ScanReport report;
+  visitReport(report, [&](auto& field) { field = in.number<std::decay_t<decltype(field)>>(); });
+  return report;
+}
+
+void write(ByteWriter& out, const InsertionStatistics& statistics) {
+  out.number(static_cast<std::uint64_t>(statistics.inserted));
+  out.number(static_cast<std::uint64_t>(statistics.without_points));
+  write(out, statistics.not_taken);
+  write(out, statistics.damaged);
+  write(out, statistics.why_damaged);
+  write(out, statistics.labels);
+  write(out, statistics.unused);
+}
+
+InsertionStatistics readStatistics(ByteReader& in) {
+  InsertionStatistics statistics;
+  statistics.inserted = in.number<std::uint64_t>();
+  statistics.without_points = in.number<std::uint64_t>();
+  statistics.not_taken = readCounts(in);
+  statistics.damaged = readCounts(in);
+  statistics.why_damaged = readTexts(in);
+  statistics.labels = readLabelCounts(in);
+  statistics.unused = readReport(in);
+  return statistics;
+}
+
 void write(ByteWriter& out, const std::vector<ScanRecord>& scans) {
   out.number(static_cast<std::uint64_t>(scans.size()));
   for (const ScanRecord& scan : scans) {
@@ -130,7 +142,7 @@ void write(ByteWriter& out, const std::vector<ScanRecord>& scans) {
     out.text(scan.sensor_label);
     out.text(scan.observation_class);
     for (const double coordinate : scan.origin) out.number(coordinate);
-    visitReport(scan.report, [&](const auto& field) { out.number(field); });
+    write(out, scan.report);
   }
 }
 
@@ -142,8 +154,7 @@ std::vector<ScanRecord> readScans(ByteReader& in) {
     scan.sensor_label = in.text();
     scan.observation_class = in.text();
     for (double& coordinate : scan.origin) coordinate = in.number<double>();
-    visitReport(scan.report,
-                [&](auto& field) { field = in.number<std::decay_t<decltype(field)>>(); });
+    scan.report = readReport(in);
   }
   return scans;
 }

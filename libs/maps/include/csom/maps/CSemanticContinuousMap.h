@@ -28,6 +28,7 @@ struct InsertionStatistics {
   std::map<std::string, std::size_t> damaged;      ///< by class name
   std::map<std::string, std::string> why_damaged;  ///< by class name: reason of the first one
   LabelCounts labels;                              ///< sum over all observations
+  ScanReport unused;                               ///< sum over the scans without_points counts
 };
 
 /// A continuous semantic occupancy map (see csom::SemanticMap) that MRPT's applications fill, save
@@ -80,6 +81,9 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   TInsertionOptions insertionOptions;
   TLikelihoodOptions likelihoodOptions;
   TRenderingOptions renderingOptions;
+  /// Tell on stderr of the first damaged observation of each class: MRPT's applications have no
+  /// other way to learn of it than statistics(), which they do not know.
+  bool announce_damaged = true;
 
   CSemanticContinuousMap();
   /// `options.number_of_classes` is taken from the label set. Throws OptionError.
