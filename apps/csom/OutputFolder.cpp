@@ -5,43 +5,47 @@
 #include <csom/core/Error.h>
 #include <csom/io/OutputFile.h>
 
+#include <vector>
+
 namespace csom {
 
 namespace fs = std::filesystem;
 
-OutputFolder::OutputFolder(const std::string& path) : path_(path) {
+namespace {
+
+/// The folder and those above it that do not exist yet, innermost first.
+std::vector<fs::path> missingFolders(const fs::path& path) {
+  std::vector<fs::path> missing;
+  fs::path folder = fs::absolute(path).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();
   std::error_code error;
-  fs::path missing = fs::absolute(path_).lexically_normal();
-  if (!missing.has_filename()) missing = missing.parent_path();
-  std::vector<fs::path> to_create;
-  for (; !fs::exists(missing, error) && missing.has_relative_path();
-       missing = missing.parent_path())
-    to_create.insert(to_create.begin(), missing);
-  if (fs::exists(missing, error) && !fs::is_directory(missing, error))
-    throw FileError(path, "cannot be a folder: " + missing.string() + " is a file");
-  for (const fs::path& folder : to_create) {
-    if (fs::create_directory(folder, error)) created_.push_back(folder);
-    if (!error) continue;
-    removeCreated();
-    throw FileError(path, "cannot be created: " + error.message());
-  }
+  for (; !fs::exists(folder, error) && folder.has_relative_path(); folder = folder.parent_path())
+    missing.push_back(folder);
+  if (!fs::is_directory(folder, error))
+    throw FileError(path.string(), "cannot be a folder: " + folder.string() + " is a file");
+  return missing;
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const std::string& path) : path_(path) {
+  const std::vector<fs::path> missing = missingFolders(path_);
+  create();
+  bool writable = true;
   try {
     OutputFile(file("writable"));
   } catch (const FileError&) {
-    removeCreated();
-    throw FileError(path, "no file can be written in this folder");
+    writable = false;
   }
-}
-
-OutputFolder::~OutputFolder() {
-  removeCreated();
-}
-
-void OutputFolder::removeCreated() {
   std::error_code ignored;
-  for (auto folder = created_.rbegin(); folder != created_.rend(); ++folder)
-    fs::remove(*folder, ignored);
-  created_.clear();
+  for (const fs::path& folder : missing) fs::remove(folder, ignored);
+  if (!writable) throw FileError(path, "no file can be written in this folder");
+}
+
+void OutputFolder::create() const {
+  std::error_code error;
+  fs::create_directories(path_, error);
+  if (error) throw FileError(path_.string(), "cannot be created: " + error.message());
 }
 
 }  // namespace csom

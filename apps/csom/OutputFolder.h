@@ -4,29 +4,24 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace csom {
 
-/// Created (with its parents) and tried out at once, so that hours of work cannot end at a folder
-/// that cannot be written. Unless keep() is called, folders that were created are removed again.
+/// Tried out at once, so that hours of work cannot end at a folder that cannot be written; what
+/// that creates is removed again, so that a run that fails or is killed leaves nothing behind.
 class OutputFolder {
  public:
-  /// Throws FileError.
+  /// Throws FileError if the folder cannot be created or written.
   explicit OutputFolder(const std::string& path);
-  ~OutputFolder();
-  OutputFolder(const OutputFolder&) = delete;
-  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  /// Creates the folder with its parents. Throws FileError.
+  void create() const;
 
   std::string file(const std::string& name) const { return (path_ / name).string(); }
   std::string path() const { return path_.string(); }
-  void keep() { created_.clear(); }
 
  private:
-  void removeCreated();
-
   std::filesystem::path path_;
-  std::vector<std::filesystem::path> created_;  ///< outermost first
 };
 
 }  // namespace csom

@@ -53,6 +53,14 @@ void addSemanticKitti(CLI::App& import_command) {
   command->add_option("--labels", arguments->request.labels,
                       "labels | predictions | FOLDER of *.label files; without it points carry "
                       "their reflectance");
+  static const std::map<std::string, SemanticKittiWorld> kWorlds{
+      {"velodyne", SemanticKittiWorld::Velodyne}, {"camera", SemanticKittiWorld::Camera}};
+  command
+      ->add_option(
+          "--world", arguments->request.world,
+          "Frame of the poses: velodyne (z up, default) | camera (as in poses.txt, y down)")
+      ->transform(CLI::CheckedTransformer(kWorlds))
+      ->option_text("FRAME");
   addCommonOptions(*command, *arguments);
   command->footer(
       "Example:\n"

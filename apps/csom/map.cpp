@@ -121,11 +121,16 @@ void printSummary(const RunRecord& record, const MapFigures& figures, const Outp
   std::printf("report    %s\n", folder.file(html ? "report.html" : "run.json").c_str());
 }
 
+void writeSimpleMap(const mrpt::maps::CSimpleMap& key_frames, const std::string& file) {
+  OutputFile output(file);
+  if (!key_frames.saveToFile(output.path())) throw FileError(file, "cannot be written");
+  output.commit();
+}
+
 void runMap(const MapArguments& arguments) {
   const MappingRequest request = requestOf(arguments);
-  OutputFolder folder(arguments.output);
-  std::optional<OutputFile> simplemap;
-  if (!arguments.simplemap.empty()) simplemap.emplace(arguments.simplemap);
+  const OutputFolder folder(arguments.output);
+  if (!arguments.simplemap.empty()) OutputFile(arguments.simplemap);  // can it be written?
 
   const auto start = std::chrono::steady_clock::now();
   const MappingResult result = mapWithProgress(request);
@@ -135,12 +140,8 @@ void runMap(const MapArguments& arguments) {
 
   const RunRecord record = recordOf(arguments, result, elapsed.count());
   const MapDocument document = documentOf(record, result);
-  if (simplemap) {
-    if (!result.key_frames.saveToFile(simplemap->path()))
-      throw FileError(arguments.simplemap, "cannot be written");
-    simplemap->commit();
-  }
-  folder.keep();
+  if (!arguments.simplemap.empty()) writeSimpleMap(result.key_frames, arguments.simplemap);
+  folder.create();
   saveMap(document, folder.file("map.csom"));
   ReportOptions report;
   report.html = !arguments.no_html;

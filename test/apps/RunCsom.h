@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the program csom as its users do.
+// Runs the program csom, and MRPT's own, as their users do.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,6 +18,13 @@ struct ProgramResult {
   int exit_code = -1;  ///< 128 + signal if a signal ended it
   std::string output;  ///< standard output
   std::string errors;  ///< standard error
+
+  std::vector<std::string> errorLines() const {
+    std::vector<std::string> lines;
+    std::istringstream text(errors);
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    return lines;
+  }
 };
 
 inline std::string shellQuoted(const std::string& text) {
@@ -26,9 +33,14 @@ inline std::string shellQuoted(const std::string& text) {
   return quoted + "'";
 }
 
-/// Runs `csom ARGUMENTS…`; what it prints goes through files in `folder`.
-inline ProgramResult runCsom(const std::string& folder, const std::vector<std::string>& arguments) {
-  std::string command = shellQuoted(CSOM_PROGRAM);
+/// Runs `PROGRAM ARGUMENTS…`; what it prints goes through files in `folder`. `environment`:
+/// NAME=value, added to that of the test.
+inline ProgramResult runProgram(const std::string& folder, const std::string& program,
+                                const std::vector<std::string>& arguments,
+                                const std::vector<std::string>& environment = {}) {
+  std::string command = "env";
+  for (const std::string& variable : environment) command += " " + shellQuoted(variable);
+  command += " " + shellQuoted(program);
   for (const std::string& argument : arguments) command += " " + shellQuoted(argument);
   const std::string output = folder + "/stdout.txt";
   const std::string errors = folder + "/stderr.txt";
@@ -46,6 +58,10 @@ inline ProgramResult runCsom(const std::string& folder, const std::vector<std::s
   std::filesystem::remove(output);
   std::filesystem::remove(errors);
   return result;
+}
+
+inline ProgramResult runCsom(const std::string& folder, const std::vector<std::string>& arguments) {
+  return runProgram(folder, CSOM_PROGRAM, arguments);
 }
 
 }  // namespace csom::test

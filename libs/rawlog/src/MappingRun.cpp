@@ -9,6 +9,7 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <chrono>
+#include <filesystem>
 #include <stdexcept>
 
 #include "MrptText.h"
@@ -17,6 +18,9 @@ namespace csom {
 namespace {
 
 using mrpt::poses::CPose3D;
+
+/// Not worth a warning: logs hold many kinds of observations.
+constexpr char kOtherKind[] = "of a kind that this map does not take";
 
 std::string counted(std::size_t count, const std::string& things) {
   return std::to_string(count) + " " + things;
@@ -29,6 +33,8 @@ bool tellsPose(const mrpt::obs::CObservation& observation) {
 }
 
 CSemanticContinuousMap::Ptr emptyMap(const MappingRequest& request) {
+  if (std::filesystem::is_directory(request.config_file))
+    throw FileError(request.config_file, "is a folder, not an ini file");
   auto definition = CSemanticContinuousMap::definitionFromIni(request.config_file);
   if (const auto unknown = definition.unknownKeys(); !unknown.empty()) {
     std::string rest;
@@ -37,7 +43,9 @@ CSemanticContinuousMap::Ptr emptyMap(const MappingRequest& request) {
                       "; docs/ini-reference.md lists all");
   }
   if (request.threads) definition.options.threads = *request.threads;
-  return std::make_shared<CSemanticContinuousMap>(definition);
+  auto map = std::make_shared<CSemanticContinuousMap>(definition);
+  map->announce_damaged = false;  // it is reported as refused
+  return map;
 }
 
 /// One run: logs in, MappingResult out.
@@ -72,7 +80,7 @@ class MappingRun {
   void insert(const mrpt::obs::CObservation& observation, const CPose3D& pose);
   void keep(const mrpt::obs::CObservation::Ptr& observation, const CPose3D& pose);
   void refuse(const mrpt::obs::CObservation& observation, const std::string& reason) {
-    ++result_.refused[{observation.GetRuntimeClass()->className, reason}];
+    ++result_.refused[{detail::shortName(observation.GetRuntimeClass()->className), reason}];
   }
   void warn(const std::string& text) { result_.warnings.push_back(text); }
   void warnAboutPoints();
@@ -137,31 +145,25 @@ void MappingRun::mapEntry(const RawlogEntry& entry, PoseSource& poses) {
 
 void MappingRun::insert(const mrpt::obs::CObservation& observation, const CPose3D& pose) {
   CSemanticContinuousMap& map = *result_.map;
-  const std::string class_name = observation.GetRuntimeClass()->className;
-  const auto damagedSoFar = [&] {
-    const auto found = map.statistics().damaged.find(class_name);
-    return found == map.statistics().damaged.end() ? std::size_t{0} : found->second;
-  };
-  const std::size_t damaged_before = damagedSoFar();
+  const InsertionStatistics before = map.statistics();
   const std::size_t scans_before = map.scans().size();
   const auto start = std::chrono::steady_clock::now();
-  bool taken = false;
-  std::string fault;
-  try {
-    taken = map.insertObservation(observation, pose);
-  } catch (const std::exception& error) {
-    fault = detail::oneLine(error);
-  }
+  map.insertObservation(observation, pose);
   const std::chrono::duration<double, std::milli> elapsed =
       std::chrono::steady_clock::now() - start;
 
   const std::size_t added = map.scans().size() - scans_before;
   for (std::size_t i = 0; i < added; ++i)
     result_.insert_ms.push_back(elapsed.count() / static_cast<double>(added));
-  if (added > 0 || taken) return;
-  if (damagedSoFar() > damaged_before) fault = map.statistics().why_damaged.at(class_name);
-  refuse(observation,
-         fault.empty() ? "carries no points that this map takes" : "damaged: " + fault);
+  if (added > 0) return;
+  const InsertionStatistics& after = map.statistics();
+  const std::string name = detail::shortName(observation.GetRuntimeClass()->className);
+  if (after.damaged != before.damaged)
+    refuse(observation, "damaged: " + after.why_damaged.at(name));
+  else if (after.without_points > before.without_points)
+    refuse(observation, "none of its points can be used");
+  else
+    refuse(observation, kOtherKind);
 }
 
 void MappingRun::keep(const mrpt::obs::CObservation::Ptr& observation, const CPose3D& pose) {
@@ -177,7 +179,7 @@ void MappingRun::keep(const mrpt::obs::CObservation::Ptr& observation, const CPo
 
 void MappingRun::warnAboutPoints() {
   const InsertionStatistics& statistics = result_.map->statistics();
-  ScanReport sum;
+  ScanReport sum = statistics.unused;
   for (const ScanRecord& scan : result_.map->scans()) sum += scan.report;
   for (std::size_t i = 0; i < kRejectReasons; ++i) {
     const auto reason = static_cast<RejectReason>(i);
@@ -199,7 +201,7 @@ void MappingRun::warnAboutPoints() {
 void MappingRun::finish() {
   warnAboutPoints();
   for (const auto& [what, count] : result_.refused) {
-    if (what.second.rfind("carries no points", 0) == 0) continue;
+    if (what.second == kOtherKind) continue;
     warn("refused " + counted(count, what.first) + ": " + what.second);
   }
   if (result_.map->isEmpty()) throw std::runtime_error(whyEmpty());

@@ -6,22 +6,9 @@
 
 #include <cstdint>
 #include <fstream>
-#include <string>
 
 namespace csom::detail {
 namespace {
-
-/// Bytes that this process can still take; 0 if the system does not say.
-std::uint64_t availableMemory() {
-  std::ifstream file("/proc/meminfo");
-  std::string key, unit;
-  std::uint64_t kilobytes = 0;
-  while (file >> key >> kilobytes) {
-    if (key == "MemAvailable:") return kilobytes * 1024;
-    std::getline(file, unit);
-  }
-  return 0;
-}
 
 std::uint64_t ownAddressSpace() {
   std::ifstream file("/proc/self/statm");
@@ -32,11 +19,10 @@ std::uint64_t ownAddressSpace() {
 
 }  // namespace
 
-MemoryLimit::MemoryLimit() {
-  const std::uint64_t available = availableMemory();
-  if (available == 0 || getrlimit(RLIMIT_AS, &before_) != 0) return;
+MemoryLimit::MemoryLimit(std::uint64_t allowance) {
+  if (getrlimit(RLIMIT_AS, &before_) != 0) return;
   rlimit limited = before_;
-  limited.rlim_cur = static_cast<rlim_t>(ownAddressSpace() + available);
+  limited.rlim_cur = static_cast<rlim_t>(ownAddressSpace() + allowance);
   if (limited.rlim_cur >= before_.rlim_cur) return;
   active_ = setrlimit(RLIMIT_AS, &limited) == 0;
 }

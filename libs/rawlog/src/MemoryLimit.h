@@ -4,14 +4,17 @@
 
 #include <sys/resource.h>
 
+#include <cstdint>
+
 namespace csom::detail {
 
-/// While it lives, the process cannot take more than the memory that is available now: an
-/// allocation beyond it throws std::bad_alloc. MRPT allocates what a length in a file says before
-/// it reads as much, and Linux grants such memory until the machine has none left.
+/// While it lives, the process cannot take more than `allowance` bytes in addition to what it has
+/// now: an allocation beyond it throws std::bad_alloc. MRPT allocates and clears what a length in a
+/// file says before it reads as much, and Linux grants such memory until the machine has none left.
+/// The limit is the process's: other threads are bound by it too.
 class MemoryLimit {
  public:
-  MemoryLimit();
+  explicit MemoryLimit(std::uint64_t allowance);
   ~MemoryLimit();
   MemoryLimit(const MemoryLimit&) = delete;
   MemoryLimit& operator=(const MemoryLimit&) = delete;

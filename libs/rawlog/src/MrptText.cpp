@@ -15,6 +15,10 @@ std::string oneLine(const std::exception& error) {
   return text.substr(begin, end == std::string::npos ? end : end - begin);
 }
 
+std::string shortName(const std::string& class_name) {
+  return class_name.substr(class_name.rfind(':') + 1);
+}
+
 std::optional<double> secondsOf(const mrpt::Clock::time_point& timestamp) {
   if (timestamp.time_since_epoch().count() == 0) return std::nullopt;
   return mrpt::Clock::toDouble(timestamp);

@@ -13,6 +13,9 @@ namespace csom::detail {
 /// The innermost message of an MRPT exception, whose what() is many lines with a call stack.
 std::string oneLine(const std::exception& error);
 
+/// A class name without its namespaces.
+std::string shortName(const std::string& class_name);
+
 /// Seconds since 1970; nothing for MRPT's invalid time stamp.
 std::optional<double> secondsOf(const mrpt::Clock::time_point& timestamp);
 

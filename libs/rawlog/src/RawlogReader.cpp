@@ -17,6 +17,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "CrashReport.h"
 #include "MemoryLimit.h"
 #include "MrptText.h"
 
@@ -29,6 +30,10 @@ namespace {
 using mrpt::rtti::TRuntimeClassId;
 
 constexpr char kNoRawlog[] = "is neither a rawlog nor a simplemap";
+
+/// Memory that one entry may take: far more than any that gzip or JPEG made small.
+constexpr std::uint64_t kMemoryAtLeast = std::uint64_t{512} << 20;
+constexpr std::uint64_t kMemoryPerByte = 64;
 
 /// Why a file cannot even be opened; empty if it can.
 std::string whyUnreadable(const std::string& file) {
@@ -151,6 +156,7 @@ RawlogReader::RawlogReader(const std::string& file)
     : file_(file), image_folder_(imageFolderOf(file)) {
   if (const std::string reason = whyUnreadable(file); !reason.empty())
     throw FileError(file, reason);
+  memory_allowance_ = kMemoryAtLeast + kMemoryPerByte * std::filesystem::file_size(file);
   archive_ = std::make_unique<Archive>(file);
   if (!archive_->isOpen()) throw FileError(file, "cannot be opened for reading");
   mrpt::io::setLazyLoadPathBase(image_folder_);
@@ -164,7 +170,8 @@ bool RawlogReader::isSimpleMap() const {
 }
 
 void RawlogReader::readStart() {
-  const detail::MemoryLimit limit;
+  const detail::MemoryLimit limit(memory_allowance_);
+  const detail::CrashReport report(crashLine());
   if (archive_->atEnd()) throw FileError(file_, "is empty");
   Archive::Header header;
   try {
@@ -188,7 +195,8 @@ void RawlogReader::readStart() {
     return;
   }
   if (!isLogClass(*header.class_id))
-    throw FileError(file_, std::string(kNoRawlog) + ": it starts with a " + header.class_name);
+    throw FileError(file_, std::string(kNoRawlog) + ": it starts with a " +
+                               detail::shortName(header.class_name));
   try {
     RawlogEntry entry;
     accept(archive_->readBody(), entry);
@@ -206,13 +214,14 @@ std::optional<RawlogEntry> RawlogReader::next() {
     first_.reset();
   } else {
     try {
-      const detail::MemoryLimit limit;
+      const detail::MemoryLimit limit(memory_allowance_);
+      const detail::CrashReport report(crashLine());
       if (!readEntry(entry)) {
         stopped_ = true;
         return std::nullopt;
       }
     } catch (const std::bad_alloc&) {
-      stopAt("it asks for more memory than there is");
+      stopAt("it claims to be larger than the file can hold");
       return std::nullopt;
     } catch (const std::exception& error) {
       stopAt(detail::oneLine(error));
@@ -265,12 +274,17 @@ bool RawlogReader::accept(const CSerializable::Ptr& object, RawlogEntry& entry) 
   return entry.action != nullptr;
 }
 
+std::string RawlogReader::crashLine() const {
+  return "csom: " + file_ + ": entry " + std::to_string(end_.entries) +
+         " is damaged so badly that MRPT crashes reading it; cut the file before it (rawlog-edit)";
+}
+
 void RawlogReader::stopAt(const std::string& reason) {
   stopped_ = true;
   end_.complete = false;
+  const std::string class_name = detail::shortName(archive_->currentClass());
   const std::string where =
-      "entry " + std::to_string(end_.entries) +
-      (archive_->currentClass().empty() ? "" : " (" + archive_->currentClass() + ")");
+      "entry " + std::to_string(end_.entries) + (class_name.empty() ? "" : " (" + class_name + ")");
   end_.reason =
       archive_->cutOff() ? "cut off in the middle of " + where : where + " is damaged: " + reason;
 }

@@ -36,6 +36,9 @@ struct RawlogEnd {
 /// stored as one CRawlog object, simplemaps; each plain or gzip-compressed. Memory: one entry at a
 /// time.
 ///
+/// An entry so damaged that MRPT crashes reading it ends the process with exit code 1 and one line
+/// on stderr, as no exception can leave such a place.
+///
 /// Opening a log makes the folder of its externalised images (FILE_Images, or Images beside it)
 /// MRPT's process-wide base path, so two logs with images cannot be read alternately.
 class RawlogReader {
@@ -62,10 +65,12 @@ class RawlogReader {
   bool readEntry(RawlogEntry& entry);
   bool accept(const std::shared_ptr<mrpt::serialization::CSerializable>& object,
               RawlogEntry& entry) const;
+  std::string crashLine() const;
   void stopAt(const std::string& reason);
 
   std::string file_;
   std::string image_folder_;
+  std::uint64_t memory_allowance_ = 0;  ///< of one entry [bytes]
   std::unique_ptr<Archive> archive_;
   std::optional<RawlogEntry> first_;  ///< read when opening, to know that this is a rawlog
   /// Entries left inside an enclosing object; a log of loose objects has no such number.

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// csom map as a process: the files that it leaves, and the same map from MRPT's own program.
+#include <nlohmann/json.hpp>
+
+#include "apps/RunCsom.h"
+#include "rawlog/LogFixtures.h"
+
+namespace csom::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class Map : public testing::Test {
+ protected:
+  Map() : log(writeLog(folder / "drive.rawlog", driveEntries(5))), config(writeConfig(folder)) {}
+
+  std::string digest(const std::string& map_file) const { return mapDigest(loadMap(map_file).map); }
+
+  const TempFolder folder;
+  const std::string log, config;
+};
+
+TEST_F(Map, LeavesMapRecordAndReport) {
+  const auto run = runCsom(folder.path(), {"map", log, "-c", config, "-o", folder / "new/out"});
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(run.errors, "") << "a short run prints no progress where there is no terminal";
+  EXPECT_THAT(run.output,
+              testing::AllOf(HasSubstr("5 with 660 points"), HasSubstr("robot-pose:truth"),
+                             HasSubstr("new/out/report.html")));
+
+  const MapDocument document = loadMap(folder / "new/out/map.csom");
+  EXPECT_EQ(document.scans.size(), 5u);
+  EXPECT_EQ(document.labels.name(), "walls");
+  EXPECT_EQ(document.map.at({2.1, 0.05, 0.65}).mostLikelyClass(), 1);
+  EXPECT_THAT(document.meta.at("command"), HasSubstr("csom map "));
+
+  const json record = json::parse(readBytes(folder / "new/out/run.json"));
+  ASSERT_EQ(record.at("scans").size(), 5u);
+  EXPECT_EQ(record["scans"][4].at("points"), 132);
+  EXPECT_NEAR(record["scans"][4].at("timestamp").get<double>(), 104.0, 1e-6);
+  EXPECT_GT(record["scans"][4].at("insert_ms").get<double>(), 0.0);
+  EXPECT_THAT(readBytes(folder / "new/out/report.html"), HasSubstr("<html"));
+}
+
+TEST_F(Map, PrintsJsonAndLeavesOutThePage) {
+  const auto run = runCsom(folder.path(),
+                           {"map", log, "-c", config, "-o", folder / "out", "--json", "--no-html"});
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(json::parse(run.output).at("scans").size(), 5u);
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/report.html"));
+}
+
+TEST_F(Map, DoesNotDependOnThreads) {
+  ASSERT_EQ(runCsom(folder.path(), {"map", log, "-c", config, "-o", folder / "1", "--threads", "1"})
+                .exit_code,
+            0);
+  ASSERT_EQ(runCsom(folder.path(), {"map", log, "-c", config, "-o", folder / "4", "--threads", "4"})
+                .exit_code,
+            0);
+  EXPECT_EQ(digest(folder / "1/map.csom"), digest(folder / "4/map.csom"));
+}
+
+TEST_F(Map, TakesASimplemapInPlaceOfARawlog) {
+  ASSERT_EQ(runCsom(folder.path(), {"map", log, "-c", config, "-o", folder / "1",
+                                    "--write-simplemap", folder / "drive.simplemap"})
+                .exit_code,
+            0);
+  const auto run =
+      runCsom(folder.path(), {"map", folder / "drive.simplemap", "-c", config, "-o", folder / "2"});
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(digest(folder / "1/map.csom"), digest(folder / "2/map.csom"));
+}
+
+TEST_F(Map, ReplacesTheFilesOfAnEarlierRun) {
+  ASSERT_EQ(runCsom(folder.path(), {"map", log, "-c", config, "-o", folder / "out"}).exit_code, 0);
+  const auto before = digest(folder / "out/map.csom");
+  ASSERT_EQ(runCsom(folder.path(), {"map", log, log, "-c", config, "-o", folder / "out"}).exit_code,
+            0);
+  EXPECT_NE(digest(folder / "out/map.csom"), before);
+  ASSERT_EQ(runCsom(folder.path(), {"map", folder / "missing", "-c", config, "-o", folder / "out"})
+                .exit_code,
+            1);
+  EXPECT_EQ(loadMap(folder / "out/map.csom").scans.size(), 10u) << "a failed run changes nothing";
+}
+
+TEST_F(Map, HelpShowsExamples) {
+  const auto run = runCsom(folder.path(), {"map", "--help"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.output, testing::AllOf(HasSubstr("Examples:"), HasSubstr("--write-simplemap")));
+}
+
+// The map of observations2map is ours bit for bit: same observations, same poses, same options.
+TEST_F(Map, EqualsThatOfObservations2map) {
+  ASSERT_EQ(runCsom(folder.path(), {"map", log, "-c", config, "-o", folder / "out",
+                                    "--write-simplemap", folder / "drive.simplemap"})
+                .exit_code,
+            0);
+  const auto stock = runProgram(folder.path(), "observations2map",
+                                {config, folder / "drive.simplemap", folder / "stock_"},
+                                {"LD_PRELOAD=" + std::string(CSOM_PLUGIN)});
+  ASSERT_EQ(stock.exit_code, 0) << stock.output << stock.errors;
+  std::string stock_map;
+  for (const std::string& name : folder.fileNames()) {
+    if (name.rfind("stock_", 0) == 0 && name.find(".csom") != std::string::npos) stock_map = name;
+  }
+  ASSERT_NE(stock_map, "") << stock.output;
+  EXPECT_EQ(digest(folder / stock_map), digest(folder / "out/map.csom"));
+}
+
+}  // namespace
+}  // namespace csom::test
