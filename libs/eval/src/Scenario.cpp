@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "YamlReader.h"
@@ -25,10 +27,12 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kGroundThickness = 0.2;
 
 YAML::Node parseFile(const std::string& file) {
+  std::ostringstream text;
+  std::ifstream stream(file);
+  if (std::filesystem::is_directory(file) || !(text << stream.rdbuf()))
+    throw FileError(file, "cannot be read, or is empty; give a world file (see config/worlds)");
   try {
-    return YAML::LoadFile(file);
-  } catch (const YAML::BadFile&) {
-    throw FileError(file, "cannot be read; check the path and its permissions");
+    return YAML::Load(text.str());
   } catch (const YAML::Exception& error) {
     throw ConfigError(file + ":" + std::to_string(error.mark.line + 1) +
                       ": no valid YAML: " + error.msg);
