@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // csom map as a process: the files that it leaves, and the same map from MRPT's own program.
+#include <csom/maps/CSemanticContinuousMap.h>
+
 #include <nlohmann/json.hpp>
 
 #include "apps/RunCsom.h"
@@ -106,6 +108,43 @@ TEST_F(Map, EqualsThatOfObservations2map) {
   }
   ASSERT_NE(stock_map, "") << stock.output;
   EXPECT_EQ(digest(folder / stock_map), digest(folder / "out/map.csom"));
+}
+
+std::string shipped(const std::string& path) {
+  return std::string(CSOM_SOURCE_DIR) + "/" + path;
+}
+
+TEST(ShippedConfigurations, HaveNoUnknownKeys) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(shipped("config"))) {
+    if (entry.path().extension() != ".ini") continue;
+    ++files;
+    const auto definition = CSemanticContinuousMap::definitionFromIni(entry.path().string());
+    EXPECT_THAT(definition.unknownKeys(), testing::IsEmpty()) << entry.path();
+    EXPECT_GT(definition.labels.numberOfClasses(), 2) << entry.path();
+  }
+  EXPECT_GE(files, 4);
+}
+
+TEST(ShippedConfigurations, ServeObservations2mapAsTheyServeUs) {
+  const TempFolder folder;
+  const auto ours = runCsom(
+      folder.path(), {"map", shipped("rawlogs/room.rawlog"), "-c", shipped("config/room.ini"), "-o",
+                      folder / "out", "--write-simplemap", folder / "room.simplemap"});
+  ASSERT_EQ(ours.exit_code, 0) << ours.errors;
+  const auto stock =
+      runProgram(folder.path(), "observations2map",
+                 {shipped("config/room.ini"), folder / "room.simplemap", folder / "stock"},
+                 {"LD_PRELOAD=" + std::string(CSOM_PLUGIN)});
+  ASSERT_EQ(stock.exit_code, 0) << stock.output << stock.errors;
+  int maps = 0;
+  for (const std::string& name : folder.fileNames()) {
+    if (name.rfind("stock", 0) != 0 || name.find(".csom") == std::string::npos) continue;
+    ++maps;
+    EXPECT_EQ(mapDigest(loadMap(folder / name).map),
+              mapDigest(loadMap(folder / "out/map.csom").map));
+  }
+  EXPECT_EQ(maps, 1);
 }
 
 }  // namespace
