@@ -110,9 +110,10 @@ TEST(ScanPreparation, DownSamplingTakesCentroidAndMajority) {
   EXPECT_EQ(report.training_points, 2U);
   ASSERT_EQ(prepared.blocks.size(), 2U);  // blocks of 8 m: x in [−8,0) and [0,8)
   EXPECT_EQ(prepared.blocks[0], (BlockIndex{-1, 0, 0}));
-  EXPECT_FLOAT_EQ(prepared.points[0].x, 7.7F);  // −0.3 m, from the lower corner of its block
+  EXPECT_NEAR(prepared.points[0].x, 7.7 / 4,
+              1e-5);  // voxels of 4 m: −0.3 m from its block's corner
   EXPECT_EQ(prepared.points[0].label, 1) << "a tie goes to the lower class";
-  EXPECT_FLOAT_EQ(prepared.points[1].x, 0.4F);
+  EXPECT_NEAR(prepared.points[1].x, 0.4 / 4, 1e-5);
   EXPECT_EQ(prepared.points[1].label, 2);
 }
 
@@ -132,7 +133,7 @@ TEST(ScanPreparation, FreeSamplesEndOneStepBeforeTheHit) {
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(prepared.blocks[i], (BlockIndex{static_cast<std::int32_t>(i), 0, 0}));
     EXPECT_EQ(prepared.points[i].label, i == 3 ? 2 : kFreeClass);
-    EXPECT_NEAR(prepared.points[i].x, 0.25, 1e-6);
+    EXPECT_NEAR(prepared.points[i].x, 0.5, 1e-5);
   }
 }
 
@@ -157,7 +158,7 @@ TEST(ScanPreparation, LargeScansAreGroupedLikeSmallOnes) {
   for (std::size_t b = 0; b + 1 < prepared.blocks.size(); ++b)
     ASSERT_TRUE(prepared.blocks[b] < prepared.blocks[b + 1]);
   for (const TrainingPoint& p : prepared.points) {
-    for (const float c : {p.x, p.y, p.z}) ASSERT_TRUE(c >= 0.0F && c <= 1.0F);
+    for (const float c : {p.x, p.y, p.z}) ASSERT_TRUE(c >= 0.0F && c <= 2.0F);
   }
 }
 

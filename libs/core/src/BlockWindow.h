@@ -8,43 +8,27 @@
 #include <cstdint>
 #include <vector>
 
+#include "Lanes.h"
+
 namespace csom::detail {
 
-/// Rows of observed blocks along x: blocks are sorted z-major, so a row and its points are
-/// contiguous.
+/// Rows of observed blocks along x: blocks are sorted z-major, so a row is contiguous.
 class BlockRows {
  public:
+  struct Range {
+    std::size_t begin = 0;  ///< blocks begin … end−1 of PreparedScan::blocks
+    std::size_t end = 0;
+  };
+
   explicit BlockRows(const PreparedScan& scan) : scan_(&scan) {
     for (std::size_t i = 0; i < scan.blocks.size(); ++i) {
       const BlockIndex& b = scan.blocks[i];
       if (rows_.empty() || rows_.back().y != b.y || rows_.back().z != b.z)
-        rows_.push_back({b.z, b.y, static_cast<std::uint32_t>(i)});
+        rows_.push_back({b.z, b.y, i});
     }
   }
 
-  /// Writes, for x = x_begin … x_begin+size, the offset of the first point of row (y, z) whose
-  /// block is at x or beyond: block x has the points starts[x−x_begin] … starts[x−x_begin+1]−1.
-  /// `cursor` remembers where the previous row was, so that ascending y costs no search.
-  void pointStarts(std::int32_t x_begin, std::int32_t y, std::int32_t z, int size,
-                   std::size_t& cursor, std::uint32_t* starts) const {
-    while (cursor < rows_.size() &&
-           (rows_[cursor].z < z || (rows_[cursor].z == z && rows_[cursor].y < y)))
-      ++cursor;
-    if (cursor == rows_.size() || rows_[cursor].z != z || rows_[cursor].y != y) {
-      std::fill(starts, starts + size + 1, 0U);
-      return;
-    }
-    const auto begin = scan_->blocks.begin() + rows_[cursor].first_block;
-    const auto end = cursor + 1 < rows_.size()
-                         ? scan_->blocks.begin() + rows_[cursor + 1].first_block
-                         : scan_->blocks.end();
-    auto block = std::lower_bound(begin, end, x_begin,
-                                  [](const BlockIndex& b, std::int32_t x) { return b.x < x; });
-    for (int i = 0; i <= size; ++i) {
-      while (block != end && block->x < x_begin + i) ++block;
-      starts[i] = scan_->block_begin[static_cast<std::size_t>(block - scan_->blocks.begin())];
-    }
-  }
+  const PreparedScan& scan() const { return *scan_; }
 
   /// The first row at or after (y, z): where a cursor starts.
   std::size_t firstRow(std::int32_t y, std::int32_t z) const {
@@ -54,46 +38,110 @@ class BlockRows {
     return static_cast<std::size_t>(row - rows_.begin());
   }
 
+  /// The blocks of row (y, z) from x on. `cursor` remembers where the previous row was, so that
+  /// ascending y costs no search.
+  Range blocksFrom(std::int32_t x, std::int32_t y, std::int32_t z, std::size_t& cursor) const {
+    while (cursor < rows_.size() &&
+           (rows_[cursor].z < z || (rows_[cursor].z == z && rows_[cursor].y < y)))
+      ++cursor;
+    if (cursor == rows_.size() || rows_[cursor].z != z || rows_[cursor].y != y) return {};
+    const auto blocks = scan_->blocks.begin();
+    const std::size_t end =
+        cursor + 1 < rows_.size() ? rows_[cursor + 1].first_block : scan_->blocks.size();
+    const auto first =
+        std::lower_bound(blocks + static_cast<std::ptrdiff_t>(rows_[cursor].first_block),
+                         blocks + static_cast<std::ptrdiff_t>(end), x,
+                         [](const BlockIndex& b, std::int32_t at) { return b.x < at; });
+    return {static_cast<std::size_t>(first - blocks), end};
+  }
+
  private:
   struct Row {
     std::int32_t z;
     std::int32_t y;
-    std::uint32_t first_block;
+    std::size_t first_block;
   };
   const PreparedScan* scan_;
   std::vector<Row> rows_;
 };
 
-/// The offsets of the points of every block in a cube of blocks.
+/// A cube of blocks with copies of its points, each coordinate in an array of its own, in voxels
+/// from the lower corner of the chunk in its middle.
 class BlockWindow {
  public:
-  /// The cube's lower corner and its edge, in blocks.
-  void moveTo(const BlockRows& rows, const BlockIndex& corner, int edge) {
-    corner_ = corner;
-    edge_ = edge;
-    starts_.resize(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge) *
-                   static_cast<std::size_t>(edge + 1));
-    for (int z = 0; z < edge; ++z) {
-      std::size_t cursor = rows.firstRow(corner.y, corner.z + z);
-      for (int y = 0; y < edge; ++y)
-        rows.pointStarts(corner.x, corner.y + y, corner.z + z, edge, cursor,
-                         starts_.data() + rowOffset(y, z));
+  /// The cube reaches from `reach` blocks below `chunk_corner` to `reach` blocks beyond the
+  /// `chunk_edge` blocks of the chunk. A block is `block_side` voxels a side.
+  void moveTo(const BlockRows& rows, const BlockIndex& chunk_corner, int chunk_edge, int reach,
+              int block_side) {
+    edge_ = chunk_edge + 2 * reach;
+    reach_ = reach;
+    const auto edge = static_cast<std::size_t>(edge_);
+    starts_.resize(edge * edge * (edge + 1));
+    size_ = 0;
+    for (int z = 0; z < edge_; ++z) {
+      std::size_t cursor = rows.firstRow(chunk_corner.y - reach, chunk_corner.z + z - reach);
+      for (int y = 0; y < edge_; ++y) copyRow(rows, chunk_corner, y, z, cursor, block_side);
     }
   }
 
-  /// starts[0] … starts[1]−1 are the points of block (x, y, z); starts continues along x.
-  const std::uint32_t* pointsOf(std::int32_t x, std::int32_t y, std::int32_t z) const {
-    return starts_.data() + rowOffset(y - corner_.y, z - corner_.z) + (x - corner_.x);
+  /// Block (x, y, z) of the chunk, counted from its lower corner and at most `reach` beyond it, has
+  /// the points starts[0] … starts[1]−1; starts continues along x.
+  const std::uint32_t* startsAt(int x, int y, int z) const {
+    return starts_.data() + rowOffset(y + reach_, z + reach_) + (x + reach_);
   }
+  /// startsAt(a + b) − startsAt(a).
+  std::ptrdiff_t stride(int x, int y, int z) const { return rowOffset(y, z) + x; }
+
+  const float* x() const { return x_.data(); }
+  const float* y() const { return y_.data(); }
+  const float* z() const { return z_.data(); }
+  /// Position in PreparedScan::points.
+  const std::uint32_t* point() const { return point_.data(); }
 
  private:
   std::ptrdiff_t rowOffset(int y, int z) const {
     return (static_cast<std::ptrdiff_t>(z) * edge_ + y) * (edge_ + 1);
   }
 
-  BlockIndex corner_;
+  void copyRow(const BlockRows& rows, const BlockIndex& chunk_corner, int y, int z,
+               std::size_t& cursor, int block_side) {
+    const PreparedScan& scan = rows.scan();
+    const std::int32_t first_x = chunk_corner.x - reach_;
+    const BlockRows::Range range =
+        rows.blocksFrom(first_x, chunk_corner.y + y - reach_, chunk_corner.z + z - reach_, cursor);
+    std::uint32_t* const starts = starts_.data() + rowOffset(y, z);
+    const auto offset_y = static_cast<float>((y - reach_) * block_side);
+    const auto offset_z = static_cast<float>((z - reach_) * block_side);
+    int x = 0;
+    for (std::size_t b = range.begin; b < range.end && scan.blocks[b].x < first_x + edge_; ++b) {
+      const int block_x = scan.blocks[b].x - first_x;
+      while (x <= block_x) starts[x++] = static_cast<std::uint32_t>(size_);
+      const auto offset_x = static_cast<float>((block_x - reach_) * block_side);
+      reserve(size_ + scan.block_begin[b + 1] - scan.block_begin[b]);
+      for (std::uint32_t i = scan.block_begin[b]; i < scan.block_begin[b + 1]; ++i, ++size_) {
+        const TrainingPoint& p = scan.points[i];
+        x_[size_] = p.x + offset_x;
+        y_[size_] = p.y + offset_y;
+        z_[size_] = p.z + offset_z;
+        point_[size_] = i;
+      }
+    }
+    while (x <= edge_) starts[x++] = static_cast<std::uint32_t>(size_);
+  }
+
+  /// Whole vectors are read, also beyond the last point.
+  void reserve(std::size_t size) {
+    if (size + kLanes <= x_.size()) return;
+    for (std::vector<float>* axis : {&x_, &y_, &z_}) axis->resize(2 * size + kLanes);
+    point_.resize(2 * size + kLanes);
+  }
+
   int edge_ = 0;
+  int reach_ = 0;
+  std::size_t size_ = 0;
   std::vector<std::uint32_t> starts_;
+  std::vector<float> x_, y_, z_;
+  std::vector<std::uint32_t> point_;
 };
 
 }  // namespace csom::detail

@@ -24,7 +24,7 @@ using detail::LaneGroup;
 /// A class entropy up to which a block listens to itself alone (Neighbourhood::ExtendedBlock).
 constexpr float kPureBlockEntropy = 0.3F;
 
-std::vector<LaneGroup> laneGroups(int block_depth, double resolution) {
+std::vector<LaneGroup> laneGroups(int block_depth) {
   const int side = 1 << (block_depth - 1);
   const int step = side > 1 ? 2 : 1;
   std::vector<LaneGroup> groups;
@@ -37,9 +37,9 @@ std::vector<LaneGroup> laneGroups(int block_depth, double resolution) {
           group.voxel[l] = side > 1
                                ? VoxelIndex{x + (lane & 1), y + ((lane >> 1) & 1), z + (lane >> 2)}
                                : VoxelIndex{x, y, z};
-          group.x[l] = static_cast<float>((group.voxel[l].x + 0.5) * resolution);
-          group.y[l] = static_cast<float>((group.voxel[l].y + 0.5) * resolution);
-          group.z[l] = static_cast<float>((group.voxel[l].z + 0.5) * resolution);
+          group.x[l] = static_cast<float>(group.voxel[l].x) + 0.5F;
+          group.y[l] = static_cast<float>(group.voxel[l].y) + 0.5F;
+          group.z[l] = static_cast<float>(group.voxel[l].z) + 0.5F;
         }
         groups.push_back(group);
       }
@@ -59,11 +59,16 @@ class Inference {
       : scan_(scan),
         options_(options),
         rows_(scan),
-        groups_(laneGroups(scan.block_depth, options.resolution)),
+        groups_(laneGroups(scan.block_depth)),
         neighbours_(detail::extendedBlock(options.context_neighbours)),
         blocks_per_chunk_(kChunkSide >> (scan.block_depth - 1)),
-        block_edge_(static_cast<float>(std::ldexp(options.resolution, scan.block_depth - 1))),
-        reach_(std::max(1, reachOf(longestKernel()))) {}
+        block_side_(1 << (scan.block_depth - 1)),
+        reach_(std::max(1, reachOf(longestKernel()))) {
+    for (int offset = 0; offset <= reach_; ++offset) {
+      const float gap = offset == 0 ? 0.0F : static_cast<float>((offset - 1) * block_side_) + 0.5F;
+      gaps_squared_.push_back(gap * gap);
+    }
+  }
 
   ScanIncrements run(ScanReport& report) {
     filled_ = filledBlocks(scan_.blocks, options_);
@@ -84,25 +89,34 @@ class Inference {
   }
 
  private:
+  /// Blocks next to each other, as offsets into the window's starts from those of a block.
+  struct RowOfBlocks {
+    std::ptrdiff_t first;
+    std::ptrdiff_t last;
+  };
   /// What a thread needs while it works.
   struct Scratch {
     explicit Scratch(int classes) : sums(classes), class_mass(static_cast<std::size_t>(classes)) {}
     detail::BlockWindow window;
-    detail::NearbyPoints nearby;
+    std::vector<RowOfBlocks> rows;  ///< around any block, for kernels of rows_length
+    float rows_length = 0;
+    std::vector<detail::PointRange> ranges;
+    std::vector<std::uint32_t> selected;
     detail::LaneSums sums;
     detail::VoxelRuns runs;
     std::vector<double> class_mass;
   };
 
+  /// Kernel lengths in voxels.
+  float inVoxels(float length) const { return length / static_cast<float>(options_.resolution); }
   float longestKernel() const {
-    return options_.usesClassEntropy() ? static_cast<float>(options_.kernelLengthMax())
-                                       : static_cast<float>(options_.kernelLengthFixed());
+    return inVoxels(static_cast<float>(options_.usesClassEntropy() ? options_.kernelLengthMax()
+                                                                   : options_.kernelLengthFixed()));
   }
   /// Blocks that a kernel of this length can reach: a voxel's centre is half a voxel inside its
   /// block.
   int reachOf(float length) const {
-    const double free = static_cast<double>(length) - options_.resolution / 2;
-    return static_cast<int>(std::ceil(free / static_cast<double>(block_edge_) + 1e-6));
+    return static_cast<int>(std::ceil((length - 0.5F) / static_cast<float>(block_side_)));
   }
 
   /// Sorts filled_ by chunk; a chunk's blocks stay together because a block lies in one chunk.
@@ -135,18 +149,26 @@ class Inference {
   }
 
   void fillChunk(const ChunkTask& task, Scratch& scratch) const {
-    const auto corner = [&](std::int32_t c) { return c * blocks_per_chunk_ - reach_; };
-    scratch.window.moveTo(rows_, {corner(task.chunk.x), corner(task.chunk.y), corner(task.chunk.z)},
-                          blocks_per_chunk_ + 2 * reach_);
+    const BlockIndex corner{task.chunk.x * blocks_per_chunk_, task.chunk.y * blocks_per_chunk_,
+                            task.chunk.z * blocks_per_chunk_};
+    scratch.window.moveTo(rows_, corner, blocks_per_chunk_, reach_, block_side_);
     for (std::size_t i = task.begin; i < task.end; ++i) {
-      const float entropy = classEntropyOf(filled_[i], scratch.class_mass);
-      const float length = kernelLength(entropy, options_);
-      gatherNeighbourhood(filled_[i], entropy, length, scratch);
+      const FilledBlock& block = filled_[i];
+      const BlockIndex in_chunk{block.index.x - corner.x, block.index.y - corner.y,
+                                block.index.z - corner.z};
+      const auto side = static_cast<float>(block_side_);
+      const detail::BlockPlace place{static_cast<float>(in_chunk.x) * side,
+                                     static_cast<float>(in_chunk.y) * side,
+                                     static_cast<float>(in_chunk.z) * side, side};
+      const float entropy = classEntropyOf(block, scratch.class_mass);
+      const float length = inVoxels(kernelLength(entropy, options_));
+      findNeighbourhood(in_chunk, entropy, length, scratch);
+      detail::selectNearby(scratch.window, scratch.ranges, place, length, scratch.selected);
       for (const LaneGroup& group : groups_) {
         scratch.sums.reset();
-        detail::addKernelMass(options_.kernel, group, scratch.nearby, scan_, length,
-                              options_.number_of_classes, scratch.sums);
-        store(filled_[i].index, group, scratch);
+        detail::addKernelMass(options_.kernel, scratch.window, scratch.selected, scan_, group,
+                              place, length, scratch.sums);
+        store(block.index, group, scratch);
       }
     }
   }
@@ -167,52 +189,54 @@ class Inference {
     return classEntropy(class_mass);
   }
 
-  /// Finds the points that the block's voxels listen to, z-major by block.
-  void gatherNeighbourhood(const FilledBlock& block, float entropy, float length,
-                           Scratch& scratch) const {
-    scratch.nearby.reset(block_edge_, static_cast<float>(options_.resolution / 2), length);
-    if (options_.neighbourhood == Neighbourhood::ExtendedBlock) {
-      const bool alone = entropy <= kPureBlockEntropy;
-      for (const detail::BlockOffset& d : neighbours_) {
-        if (!alone || d.kind() == 0) gatherRow(block.index, d.x, d.x, d.y, d.z, scratch);
-      }
-      return;
+  /// The ranges of points that may matter to a block of the chunk, z-major by block.
+  void findNeighbourhood(const BlockIndex& block, float entropy, float length,
+                         Scratch& scratch) const {
+    if (options_.neighbourhood == Neighbourhood::Radius) {
+      if (length != scratch.rows_length) rowsWithin(length, scratch);
+    } else {
+      rowsOfExtendedBlock(entropy <= kPureBlockEntropy, scratch);
     }
-    const int reach = std::min(reach_, reachOf(length));
+    scratch.ranges.clear();
+    const std::uint32_t* const here = scratch.window.startsAt(block.x, block.y, block.z);
+    for (const RowOfBlocks& row : scratch.rows) {
+      const std::uint32_t begin = here[row.first];
+      const std::uint32_t end = here[row.last + 1];
+      if (begin < end) scratch.ranges.push_back({begin, end});
+    }
+  }
+
+  /// Rows of blocks with a point nearer than `length` to a voxel centre, at best.
+  void rowsWithin(float length, Scratch& scratch) const {
+    scratch.rows.clear();
+    scratch.rows_length = length;
     const float limit = length * length;
-    for (int z = -reach; z <= reach; ++z)
-      for (int y = -reach; y <= reach; ++y) {
-        const float yz = gapSquared(y) + gapSquared(z);
+    for (int z = -reach_; z <= reach_; ++z)
+      for (int y = -reach_; y <= reach_; ++y) {
         int x = -1;
-        while (x < reach && yz + gapSquared(x + 1) < limit) ++x;
-        if (x >= 0) gatherRow(block.index, -x, x, y, z, scratch);
+        while (x < reach_ && gapSquared(x + 1) + gapSquared(y) + gapSquared(z) < limit) ++x;
+        if (x >= 0)
+          scratch.rows.push_back({scratch.window.stride(-x, y, z), scratch.window.stride(x, y, z)});
       }
   }
 
-  /// Square of the least distance along one axis from a voxel centre of a block to a block `offset`
-  /// blocks away, a little too short so that rounding never hides a point.
-  float gapSquared(int offset) const {
-    if (offset == 0) return 0;
-    const float gap = (static_cast<float>(std::abs(offset)) - 1.0F) * block_edge_ +
-                      0.499F * static_cast<float>(options_.resolution);
-    return gap * gap;
+  void rowsOfExtendedBlock(bool alone, Scratch& scratch) const {
+    scratch.rows.clear();
+    for (const detail::BlockOffset& d : neighbours_) {
+      const std::ptrdiff_t at = scratch.window.stride(d.x, d.y, d.z);
+      if (!alone || d.kind() == 0) scratch.rows.push_back({at, at});
+    }
   }
 
-  /// The points of the blocks from x_first to x_last (offsets from `block`) of one row.
-  void gatherRow(const BlockIndex& block, int x_first, int x_last, int y, int z,
-                 Scratch& scratch) const {
-    const std::uint32_t* starts =
-        scratch.window.pointsOf(block.x + x_first, block.y + y, block.z + z);
-    if (starts[0] == starts[x_last - x_first + 1]) return;
-    for (int x = x_first; x <= x_last; ++x, ++starts)
-      scratch.nearby.add(scan_.points.data(), starts[0], starts[1],
-                         static_cast<float>(x) * block_edge_, static_cast<float>(y) * block_edge_,
-                         static_cast<float>(z) * block_edge_);
+  /// Square of the least distance along one axis from a voxel centre of a block to a block so many
+  /// blocks away.
+  float gapSquared(int offset) const {
+    return gaps_squared_[static_cast<std::size_t>(std::abs(offset))];
   }
 
   void store(const BlockIndex& block, const LaneGroup& group, Scratch& scratch) const {
     if (scratch.sums.empty()) return;
-    const int side = 1 << (scan_.block_depth - 1);
+    const int side = block_side_;
     const std::vector<ClassId>& classes = scratch.sums.finish();
     const std::size_t lanes = side > 1 ? kLanes : 1;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -237,8 +261,9 @@ class Inference {
   std::vector<detail::BlockOffset> neighbours_;
   std::vector<FilledBlock> filled_;
   int blocks_per_chunk_;
-  float block_edge_;
+  int block_side_;  ///< voxels
   int reach_;
+  std::vector<float> gaps_squared_;
 };
 
 /// s-csm: each observed voxel receives the class mass of its own points.

@@ -50,6 +50,7 @@ class LaneSums {
     countAddition();
   }
 
+  std::size_t numberOfClasses() const { return sums_.size(); }
   bool empty() const { return touched_.empty(); }
 
   /// The classes with any mass, ascending; ends the additions.

@@ -224,16 +224,13 @@ class Preparation {
       sorted[i] = {packing.pack(blocks[i]), static_cast<std::uint32_t>(i)};
     detail::stableSort(sorted, packing.bits());
 
-    const double edge = std::ldexp(options_.resolution, out_.block_depth - 1);
     out_.points.reserve(sorted.size());
     out_.scores.reserve(in.scores.size());
     for (const KeyedItem& entry : sorted) {
+      const Eigen::Vector3d voxels = inMap(in.points[entry.item]) / options_.resolution;
       const KeyPacking::Position& b = blocks[entry.item];
-      const Eigen::Vector3d corner(static_cast<double>(b[0]) * edge,
-                                   static_cast<double>(b[1]) * edge,
-                                   static_cast<double>(b[2]) * edge);
-      const Eigen::Vector3f p = (inMap(in.points[entry.item]) - corner).cast<float>();
-      out_.points.push_back({p.x(), p.y(), p.z(), in.labels[entry.item]});
+      out_.points.push_back({fromCorner(voxels.x(), b[0]), fromCorner(voxels.y(), b[1]),
+                             fromCorner(voxels.z(), b[2]), in.labels[entry.item]});
       if (!in.scores.empty()) appendScores(out_.scores, rowOf(in.scores, entry.item));
     }
     detail::forEachRun(sorted, [&](std::size_t begin, std::size_t) {
@@ -244,6 +241,13 @@ class Preparation {
     });
     out_.block_begin.push_back(static_cast<std::uint32_t>(sorted.size()));
     report_.blocks_observed += out_.blocks.size();
+  }
+
+  /// See TrainingPoint.
+  float fromCorner(double voxels, std::int64_t block) const {
+    constexpr double kQuanta = 1 << 17;
+    const double corner = std::ldexp(static_cast<double>(block), out_.block_depth - 1);
+    return static_cast<float>(std::floor((voxels - corner) * kQuanta + 0.5) / kQuanta);
   }
 
   const float* rowOf(const std::vector<float>& scores, std::size_t row) const {

@@ -14,8 +14,9 @@
 
 namespace csom {
 
-/// A training point, in metres relative to the lower corner of its block: a float then holds it to
-/// a fraction of a micrometre, however far the scan reaches and wherever it lies in the map.
+/// A training point, in voxels (not metres) from the lower corner of its block, rounded to 2⁻¹⁷ of
+/// a voxel: single-precision differences between points and voxel centres are then exact within 60
+/// voxels, so a scan that is shifted by whole blocks adds the same counts, wherever it lies.
 struct TrainingPoint {
   float x, y, z;
   ClassId label;  ///< of a hard scan; 0 in a soft one
