@@ -149,6 +149,8 @@ TEST_F(BadInput, AConfigurationThatIsWrong) {
                 AllOf(HasSubstr("map.ini"), HasSubstr("lamp")));
   writeBytes(config, "[MappingApplication]\n");
   expectRefused(map(log), 2, AllOf(HasSubstr("map.ini"), HasSubstr("semanticContinuousMap_count")));
+  writeBytes(config, readBytes(log) + "${" + readBytes(log));
+  expectRefused(map(log), 2, HasSubstr("map.ini"));
   std::filesystem::remove(config);
   expectRefused(map(log), 1, HasSubstr("map.ini"));
   std::filesystem::create_directory(config);

@@ -32,10 +32,21 @@ bool tellsPose(const mrpt::obs::CObservation& observation) {
          dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation) != nullptr;
 }
 
+CSemanticContinuousMap::TMapDefinition definitionOf(const std::string& file) {
+  if (std::filesystem::is_directory(file)) throw FileError(file, "is a folder, not an ini file");
+  try {
+    return CSemanticContinuousMap::definitionFromIni(file);
+  } catch (const FileError&) {
+    throw;
+  } catch (const ConfigError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw ConfigError(file + ": is no ini file: " + detail::oneLine(error));
+  }
+}
+
 CSemanticContinuousMap::Ptr emptyMap(const MappingRequest& request) {
-  if (std::filesystem::is_directory(request.config_file))
-    throw FileError(request.config_file, "is a folder, not an ini file");
-  auto definition = CSemanticContinuousMap::definitionFromIni(request.config_file);
+  auto definition = definitionOf(request.config_file);
   if (const auto unknown = definition.unknownKeys(); !unknown.empty()) {
     std::string rest;
     if (unknown.size() > 1) rest = " (and " + std::to_string(unknown.size() - 1) + " more)";

@@ -5,14 +5,21 @@
 namespace csom::detail {
 
 std::string oneLine(const std::exception& error) {
+  constexpr std::size_t kLongest = 200;
   std::string text = error.what();
-  static const std::string kMark = "Message:";
-  if (const std::size_t mark = text.rfind(kMark); mark != std::string::npos)
-    text.erase(0, mark + kMark.size());
+  for (const std::string mark : {"MRPT exception ====", "Message:"}) {
+    if (const std::size_t at = text.rfind(mark); at != std::string::npos)
+      text.erase(0, at + mark.size());
+  }
   const std::size_t begin = text.find_first_not_of(" \t\n");
   if (begin == std::string::npos) return "no reason given";
-  const std::size_t end = text.find('\n', begin);
-  return text.substr(begin, end == std::string::npos ? end : end - begin);
+  text = text.substr(begin, text.find('\n', begin) - begin);
+  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  // What MRPT quotes from a file may be anything; it must not reach a terminal.
+  for (char& c : text) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return text;
 }
 
 std::string shortName(const std::string& class_name) {
