@@ -58,13 +58,14 @@ void addSemanticKitti(CLI::App& import_command) {
   command
       ->add_option(
           "--world", arguments->request.world,
-          "Frame of the poses: velodyne (z up, default) | camera (as in poses.txt, y down)")
+          "Frame of the map: camera (that of poses.txt, y down, default) | velodyne (z up)")
       ->transform(CLI::CheckedTransformer(kWorlds))
       ->option_text("FRAME");
   addCommonOptions(*command, *arguments);
   command->footer(
       "Example:\n"
-      "  csom import semantickitti sequences/08 --labels predictions -o k.rawlog");
+      "  csom import semantickitti sequences/08 --labels predictions -o k.rawlog\n"
+      "  csom import semantickitti sequences/08 --labels labels --world velodyne -o z-up.rawlog");
   command->callback([arguments] {
     arguments->request.selection = arguments->selection();
     Progress progress("importing");
@@ -121,8 +122,8 @@ void addPcd(CLI::App& import_command) {
       ->option_text("FIELD");
   command
       ->add_option("--irregular-rows", arguments->request.row_policy,
-                   "Rows with a wrong number of columns: refuse the file (default) | skip the "
-                   "row | ignore-extra columns")
+                   "Rows with a wrong number of columns, always reported: ignore-extra columns and "
+                   "skip shorter rows (default) | skip the row | refuse the file")
       ->transform(CLI::CheckedTransformer(kPolicies))
       ->option_text("POLICY");
   addCommonOptions(*command, *arguments);

@@ -83,6 +83,7 @@ RunRecord recordOf(const MapArguments& arguments, const MappingResult& result, d
   record.config_file = arguments.config;
   record.parameters = parametersOf(*result.map);
   record.pose_source = poseSourcesOf(result);
+  record.up = result.up;
   record.label_set = result.map->labels().name();
   record.observations_read = result.observations_read;
   const auto& scans = result.map->scans();

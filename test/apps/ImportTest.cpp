@@ -35,10 +35,16 @@ TEST(Import, AsksWhatToDoWithIrregularRows) {
   writeBytes(folder / "1.pcd", std::string(kHeader) + "1 0 0 1 -1\n1 0.5 0 1\n");
   const std::vector<std::string> command{"import", "pcd", folder / "1.pcd", "-o",
                                          folder / "a.rawlog"};
-  const auto refused = runCsom(folder.path(), command);
+  auto refusing = command;
+  refusing.insert(refusing.end(), {"--irregular-rows", "refuse"});
+  const auto refused = runCsom(folder.path(), refusing);
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_THAT(refused.errorLines(), testing::ElementsAre(HasSubstr("1.pcd: line 11")));
   EXPECT_THAT(folder.fileNames(), testing::ElementsAre("1.pcd"));
+  const auto by_default = runCsom(folder.path(), command);
+  EXPECT_EQ(by_default.exit_code, 0) << by_default.errors;
+  EXPECT_THAT(by_default.output, HasSubstr("2 points"));
+  EXPECT_THAT(by_default.errorLines(), testing::ElementsAre(HasSubstr("line 11")));
   for (const auto& [policy, points] :
        {std::pair{"skip", "1 points"}, {"ignore-extra", "2 points"}}) {
     auto with_policy = command;

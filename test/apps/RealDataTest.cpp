@@ -69,7 +69,7 @@ std::map<std::string, OfClass> classesOf(const MapDocument& document) {
 
 TEST_F(RealData, SemanticKittiShowsTheStreetWhereItIs) {
   const std::string sequence = dataFolder("semantickitti_08");
-  import({"semantickitti", sequence, "--labels", "predictions"});
+  import({"semantickitti", sequence, "--labels", "predictions", "--world", "velodyne"});
   const MapDocument document = mapWith(configFile("semantickitti.ini"));
   ASSERT_EQ(document.scans.size(), 5u);
   EXPECT_GT(document.scans[0].report.points, 100000u);
@@ -87,7 +87,7 @@ TEST_F(RealData, SemanticKittiShowsTheStreetWhereItIs) {
 // The map must agree with the ground truth at least as well as the labels that it was made of.
 TEST_F(RealData, SemanticKittiMapBeatsItsInput) {
   const std::string sequence = dataFolder("semantickitti_08");
-  import({"semantickitti", sequence, "--labels", "predictions", "--world", "camera"});
+  import({"semantickitti", sequence, "--labels", "predictions"});
   const MapDocument document = mapWith(configFile("semantickitti.ini"));
   const auto poses = readKittiPoses(sequence + "/poses.txt");
   const auto calibration = readKittiOdometryCalibration(sequence + "/calib.txt");
@@ -130,12 +130,12 @@ TEST_F(RealData, StanfordConferenceRoomHasItsFurniture) {
 // A real file of the wild: every row has a column too many.
 TEST_F(RealData, AnnotatedSimulationHasFloorWallsAndSolids) {
   const std::string scans = dataFolder("sim_unstructured_annotated");
-  const auto refused =
-      runCsom(folder.path(), {"import", "pcd", scans, "-o", folder / "data.rawlog"});
+  const auto refused = runCsom(folder.path(), {"import", "pcd", scans, "-o", folder / "data.rawlog",
+                                               "--irregular-rows", "refuse"});
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_THAT(refused.errorLines(), testing::ElementsAre(HasSubstr("line 12")));
 
-  import({"pcd", scans, "--irregular-rows", "ignore-extra"});
+  import({"pcd", scans});
   writeBytes(folder / "labels.yaml",
              "name: annotated\nclasses:\n"
              "  - {id: 0, name: free, color: [255, 255, 255]}\n"

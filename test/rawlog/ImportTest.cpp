@@ -92,6 +92,7 @@ TEST(ImportSemanticKitti, KeepsPointsLabelsAndPoses) {
   SemanticKittiImport request;
   request.folder = folder.path();
   request.labels = "labels";
+  request.world = SemanticKittiWorld::Velodyne;
   const auto summary = importSemanticKitti(request, folder / "k.rawlog");
   EXPECT_EQ(summary.scans, 2u);
   EXPECT_EQ(summary.points, 4u);
@@ -116,12 +117,11 @@ TEST(ImportSemanticKitti, KeepsPointsLabelsAndPoses) {
   EXPECT_NEAR(poses[1]->pose.mean.yaw(), 0, 1e-9);
 }
 
-TEST(ImportSemanticKitti, CanStayInTheWorldOfTheCamera) {
+TEST(ImportSemanticKitti, StaysInTheWorldOfTheCamera) {
   const TempFolder folder;
   writeSequence(folder);
   SemanticKittiImport request;
   request.folder = folder.path();
-  request.world = SemanticKittiWorld::Camera;
   importSemanticKitti(request, folder / "k.rawlog");
   const auto all = observationsOf(folder / "k.rawlog");
   const auto pose = only<mrpt::obs::CObservationRobotPose>(all).at(1)->pose.mean;
@@ -140,6 +140,7 @@ TEST(ImportSemanticKitti, TakesTimesAndPosesOfTheNumberOfAFile) {
   writeBytes(folder / "times.txt", "0.0\n12.5\n");
   SemanticKittiImport request;
   request.folder = folder.path();
+  request.world = SemanticKittiWorld::Velodyne;
   request.selection = ScanSelection::parse("1:2", 1);
   importSemanticKitti(request, folder / "k.rawlog");
   const auto pose = only<mrpt::obs::CObservationRobotPose>(observationsOf(folder / "k.rawlog"));
@@ -249,6 +250,7 @@ TEST(ImportPcd, ReportsRowsAndLabelsThatItCouldNotKeep) {
   writeBytes(folder / "1.pcd", pcd("x y z label", "0 0 0", "1 2 3 4 -1\n5 6 7 16777217\n"));
   writeBytes(folder / "2.pcd", pcd("x y z label", "0 0 0", "1 2 3 4 -1\n"));
   PcdImport request;
+  request.row_policy = PcdRowPolicy::Refuse;
   request.files = {folder.path()};
   EXPECT_THAT(fileErrorOf([&] { importPcd(request, folder / "a.rawlog"); }),
               HasSubstr("1.pcd: line 12"));

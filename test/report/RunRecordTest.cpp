@@ -83,6 +83,7 @@ TEST(RunRecordTest, TellsHowTheRunCameAbout) {
   EXPECT_EQ(run["config_file"], "config/drive.ini");
   EXPECT_EQ(run["pose_source"], "robot-pose:GT");
   EXPECT_EQ(run["label_set"], "sample");
+  EXPECT_EQ(run["up"], json({0.0, 0.0, 1.0}));
   EXPECT_EQ(run["wall_seconds"], 12.34);
 }
 

@@ -75,6 +75,27 @@ TEST(TopViewTest, XPointsRightAndYUp) {
   EXPECT_NEAR(along_y.x, origin.x, 1);
 }
 
+TEST(TopViewTest, LooksDownTheAxisThatIsUp) {
+  // In the frame of a camera y points down and z forward: −y is up, x right, z to the top.
+  TopViewOptions options;
+  options.up = {0.02, -0.99, 0.1};
+  const MapDocument map =
+      test::mapOf({{{0, 0, 0}, 1}, {{6, 0, 0}, 2}, {{0, 0, 6}, 3}, {{0, 5, 6}, 1}});
+  const cv::Mat image = drawn(map, options);
+  const Centroid origin = find(image, kRed);
+  const Centroid along_x = find(image, kGreen);
+  const Centroid along_z = find(image, kBlue);
+  ASSERT_GT(std::min({origin.pixels, along_x.pixels, along_z.pixels}), 0);
+  EXPECT_GT(along_x.x, origin.x + 50);
+  EXPECT_NEAR(along_x.y, origin.y, 1);
+  EXPECT_LT(along_z.y, origin.y - 50);
+  EXPECT_NEAR(along_z.x, origin.x, 1) << "the red voxel below it is hidden";
+
+  options.up = -Eigen::Vector3d::UnitY();
+  options.highest = -1.0;  // what lies above y = 1 m is cut away
+  EXPECT_EQ(find(drawn(map, options), kGreen).pixels, 0);
+}
+
 TEST(TopViewTest, TheTopmostOccupiedVoxelOfAColumnIsShown) {
   const cv::Mat image = drawn(test::mapOf({{{0, 0, 3}, 2}, {{0, 0, 0}, 1}, {{0, 0, 5}, 0}}));
   EXPECT_GT(find(image, kGreen).pixels, 0);
@@ -92,12 +113,12 @@ TEST(TopViewTest, CeilingsAreLookedThrough) {
 TEST(TopViewTest, HighestZCutsByTheCentresOfVoxels) {
   const MapDocument tower = test::mapOf({{{0, 0, 0}, 1}, {{0, 0, 3}, 2}});
   TopViewOptions options;
-  options.highest_z = 3.5;
+  options.highest = 3.5;
   EXPECT_GT(find(drawn(tower, options), kGreen).pixels, 0);
-  options.highest_z = 3.4;
+  options.highest = 3.4;
   EXPECT_EQ(find(drawn(tower, options), kGreen).pixels, 0);
   EXPECT_GT(find(drawn(tower, options), kRed).pixels, 0);
-  options.highest_z = -5;
+  options.highest = -5;
   EXPECT_FALSE(drawn(tower, options).empty());
 }
 

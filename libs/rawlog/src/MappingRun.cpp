@@ -101,6 +101,7 @@ class MappingRun {
   const MappingRequest& request_;
   const std::function<void(const MappingProgress&)>& on_progress_;
   MappingResult result_;
+  Eigen::Vector3d up_ = Eigen::Vector3d::Zero();
   std::size_t entries_ = 0;
   std::size_t entries_done_ = 0;
   /// Key frame that the entry at hand has opened, to which observations of the same pose are added.
@@ -166,7 +167,11 @@ void MappingRun::insert(const mrpt::obs::CObservation& observation, const CPose3
   const std::size_t added = map.scans().size() - scans_before;
   for (std::size_t i = 0; i < added; ++i)
     result_.insert_ms.push_back(elapsed.count() / static_cast<double>(added));
-  if (added > 0) return;
+  if (added > 0) {
+    const auto rotation = pose.getRotationMatrix();
+    up_ += Eigen::Vector3d(rotation(0, 2), rotation(1, 2), rotation(2, 2));
+    return;
+  }
   const InsertionStatistics& after = map.statistics();
   const std::string name = detail::shortName(observation.GetRuntimeClass()->className);
   if (after.damaged != before.damaged)
@@ -210,6 +215,7 @@ void MappingRun::warnAboutPoints() {
 }
 
 void MappingRun::finish() {
+  if (up_.norm() > 0) result_.up = up_.normalized();
   warnAboutPoints();
   for (const auto& [what, count] : result_.refused) {
     if (what.second == kOtherKind) continue;

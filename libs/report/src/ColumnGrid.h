@@ -9,27 +9,29 @@
 #include <set>
 #include <vector>
 
+#include "ViewAxes.h"
+
 namespace csom {
 
 /// What one sees looking down a column.
 struct Column {
   VoxelState state = VoxelState::Unknown;
   ClassId top_class = kFreeClass;  ///< if occupied
-  std::int32_t top = 0;            ///< z index of the topmost occupied voxel
+  std::int32_t top = 0;            ///< index of the topmost occupied voxel along the view's up
 };
 
-/// A raster of columns: x to the right, row 0 at the highest y.
+/// A raster of columns, row 0 at the top of the picture.
 class ColumnGrid {
  public:
   /// Which voxels of a map are seen.
   struct Filter {
-    std::optional<double> highest_z;  ///< voxels with a higher centre are not [m]
-    std::set<ClassId> hidden;         ///< nor are those of these classes
+    std::optional<double> highest;  ///< voxels with a higher centre are not [m]
+    std::set<ClassId> hidden;       ///< nor are those of these classes
   };
 
   /// Covers all seen voxels with at most `max_cells` cells a side; each cell then holds several
   /// voxels a side.
-  ColumnGrid(const SemanticMap& map, const Filter& filter, int max_cells);
+  ColumnGrid(const SemanticMap& map, const ViewAxes& axes, const Filter& filter, int max_cells);
 
   bool empty() const { return columns_.empty(); }
   int width() const { return width_; }

@@ -34,7 +34,9 @@ void writeReport(const RunRecord& record, const MapDocument& document, const std
   }
   if (!options.png && !options.html) return;
 
-  const std::vector<std::uint8_t> top_view = topViewPng(document, options.top_view);
+  TopViewOptions view = options.top_view;
+  view.up = record.up;
+  const std::vector<std::uint8_t> top_view = topViewPng(document, view);
   if (options.png) writeFile(base / "top.png", top_view.data(), top_view.size());
   if (options.html) {
     const std::string page = htmlReport(record, figures, top_view);

@@ -155,6 +155,7 @@ std::string toJson(const RunRecord& record, const MapFigures& figures) {
                      {"inputs", record.inputs},
                      {"config_file", record.config_file},
                      {"pose_source", record.pose_source},
+                     {"up", {record.up.x(), record.up.y(), record.up.z()}},
                      {"label_set", record.label_set},
                      {"parameters", parametersJson(record.parameters)},
                      {"wall_seconds", record.wall_seconds},

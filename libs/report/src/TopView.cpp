@@ -41,7 +41,7 @@ LabelClass classOf(const LabelSet& labels, ClassId k) {
 
 ColumnGrid::Filter filterOf(const LabelSet& labels, const TopViewOptions& options) {
   ColumnGrid::Filter filter;
-  filter.highest_z = options.highest_z;
+  filter.highest = options.highest;
   for (const std::string& name : options.hidden_classes)
     if (const auto k = labels.classByName(name)) filter.hidden.insert(*k);
   return filter;
@@ -173,12 +173,12 @@ void drawScaleBar(Canvas& canvas, cv::Point left, double metres_per_pixel) {
   canvas.text(formatLength(length), left + cv::Point(0, 24), kInk);
 }
 
-void drawAxes(Canvas& canvas, cv::Point origin) {
+void drawAxes(Canvas& canvas, const ViewAxes& axes, cv::Point origin) {
   constexpr int kLength = 28;
   canvas.arrow(origin, origin + cv::Point(kLength, 0), kInk);
   canvas.arrow(origin, origin - cv::Point(0, kLength), kInk);
-  canvas.text("x", origin + cv::Point(kLength + 4, 4), kInk);
-  canvas.text("y", origin + cv::Point(-4, -kLength - 6), kInk);
+  canvas.text(axes.right.name(), origin + cv::Point(kLength + 4, 4), kInk);
+  canvas.text(axes.top.name(), origin + cv::Point(-4, -kLength - 6), kInk);
 }
 
 std::vector<std::uint8_t> emptyPicture(bool map_is_empty) {
@@ -195,7 +195,8 @@ std::vector<std::uint8_t> topViewPng(const MapDocument& document, const TopViewO
   if (options.max_pixels < 64 || options.max_pixels > 4096)
     throw std::invalid_argument("max_pixels of a top view must be 64 … 4096, not " +
                                 std::to_string(options.max_pixels));
-  const ColumnGrid grid(document.map, filterOf(document.labels, options), options.max_pixels);
+  const ViewAxes axes = ViewAxes::lookingDown(options.up);
+  const ColumnGrid grid(document.map, axes, filterOf(document.labels, options), options.max_pixels);
   if (grid.empty()) return emptyPicture(document.map.empty());
 
   const int cell_size =
@@ -215,7 +216,7 @@ std::vector<std::uint8_t> topViewPng(const MapDocument& document, const TopViewO
   const double metres_per_pixel =
       document.map.grid().resolution() * grid.voxelsPerCell() / cell_size;
   drawScaleBar(canvas, {panel.x, panel.br().y + 30}, metres_per_pixel);
-  drawAxes(canvas, {panel.br().x - 50, panel.br().y + 60});
+  drawAxes(canvas, axes, {panel.br().x - 50, panel.br().y + 60});
   return canvas.toPng();
 }
 

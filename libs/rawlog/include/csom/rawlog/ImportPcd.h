@@ -21,7 +21,7 @@ struct PcdImport {
   std::vector<std::string> files;  ///< files, or folders of *.pcd; taken in natural order
   bool single_scan = false;        ///< all files are one scan
   PcdField field = PcdField::Auto;
-  PcdRowPolicy row_policy = PcdRowPolicy::Refuse;
+  PcdRowPolicy row_policy = PcdRowPolicy::IgnoreExtra;
   ScanSelection selection;  ///< of the files
 };
 

@@ -21,8 +21,7 @@ struct SemanticKittiImport {
   /// "labels", "predictions" or any folder of *.label files, inside `folder` or a path; empty:
   /// none.
   std::string labels;
-  /// Maps are looked at from above: z should be up.
-  SemanticKittiWorld world = SemanticKittiWorld::Velodyne;
+  SemanticKittiWorld world = SemanticKittiWorld::Camera;
   ScanSelection selection;
 };
 

@@ -7,6 +7,7 @@
 #include <csom/rawlog/RawlogReader.h>
 #include <mrpt/maps/CSimpleMap.h>
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -42,8 +43,9 @@ struct MappedLog {
 struct MappingResult {
   CSemanticContinuousMap::Ptr map;
   std::vector<MappedLog> logs;
-  std::vector<double> insert_ms;      ///< one for each of map->scans()
-  std::size_t observations_read = 0;  ///< robot poses and odometry are not counted
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< mean z axis of the robot, in the map frame
+  std::vector<double> insert_ms;                  ///< one for each of map->scans()
+  std::size_t observations_read = 0;              ///< robot poses and odometry are not counted
   /// Observations that did not reach the map, by (class, reason).
   std::map<std::pair<std::string, std::string>, std::size_t> refused;
   std::vector<std::string> warnings;  ///< one line each

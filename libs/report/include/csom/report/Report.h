@@ -11,10 +11,10 @@
 namespace csom {
 
 struct ReportOptions {
-  bool json = true;  ///< run.json
-  bool png = true;   ///< top.png
-  bool html = true;  ///< report.html
-  TopViewOptions top_view;
+  bool json = true;         ///< run.json
+  bool png = true;          ///< top.png
+  bool html = true;         ///< report.html
+  TopViewOptions top_view;  ///< its `up` is that of the record
 };
 
 /// Writes the files into `folder`, which is created if missing. Each file is complete or absent:

@@ -8,6 +8,7 @@
 #include <csom/io/MapFile.h>
 #include <csom/report/MapFigures.h>
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -49,8 +50,10 @@ struct RunRecord {
   std::vector<std::string> inputs;  ///< rawlogs or simplemaps
   std::string config_file;          ///< empty: the defaults
   std::vector<Parameter> parameters;
-  std::string pose_source;            ///< "robot-pose:GT", "odometry", …
-  std::string label_set;              ///< its name
+  std::string pose_source;  ///< "robot-pose:GT", "odometry", …
+  std::string label_set;    ///< its name
+  /// Mean direction of the robot's z axis in the map frame: what pictures take for up.
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   std::size_t observations_read = 0;  ///< inserted and refused ones
   std::vector<RunScan> scans;
   std::vector<RefusedObservations> refused;
