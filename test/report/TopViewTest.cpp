@@ -110,6 +110,12 @@ TEST(TopViewTest, CeilingsAreLookedThrough) {
   EXPECT_EQ(find(drawn(room, with_ceiling), kRed).pixels, 0);
 }
 
+TEST(TopViewTest, TheLegendNamesWhatIsLeftOut) {
+  // "ceiling (not drawn)" is wider than every other entry.
+  EXPECT_GT(drawn(test::mapOf({{{0, 0, 0}, 1}, {{0, 0, 3}, 4}})).cols,
+            drawn(test::mapOf({{{0, 0, 0}, 1}})).cols);
+}
+
 TEST(TopViewTest, HighestZCutsByTheCentresOfVoxels) {
   const MapDocument tower = test::mapOf({{{0, 0, 0}, 1}, {{0, 0, 3}, 2}});
   TopViewOptions options;

@@ -14,15 +14,14 @@ struct SeenVoxel {
   std::int32_t right, top, up;
 };
 
-/// Calls visit(SeenVoxel, class) for every voxel that passes the filter.
+/// Calls visit(SeenVoxel, class) for every voxel below the cut, hidden classes included.
 template <class Visitor>
-void forEachSeenVoxel(const SemanticMap& map, const ViewAxes& axes,
-                      const ColumnGrid::Filter& filter, Visitor&& visit) {
+void forEachLowVoxel(const SemanticMap& map, const ViewAxes& axes, std::optional<double> highest,
+                     Visitor&& visit) {
   map.forEachVoxel([&](const VoxelIndex& index, const DirichletVoxel& voxel) {
-    if (filter.highest && axes.up.along(map.grid().center(index)) > *filter.highest) return;
-    const ClassId k = voxel.mostLikelyClass();
-    if (filter.hidden.count(k) > 0) return;
-    visit(SeenVoxel{axes.right.along(index), axes.top.along(index), axes.up.along(index)}, k);
+    if (highest && axes.up.along(map.grid().center(index)) > *highest) return;
+    visit(SeenVoxel{axes.right.along(index), axes.top.along(index), axes.up.along(index)},
+          voxel.mostLikelyClass());
   });
 }
 
@@ -33,7 +32,11 @@ ColumnGrid::ColumnGrid(const SemanticMap& map, const ViewAxes& axes, const Filte
   constexpr auto kLowest = std::numeric_limits<std::int32_t>::min();
   constexpr auto kHighest = std::numeric_limits<std::int32_t>::max();
   std::int32_t min_right = kHighest, min_top = kHighest, max_right = kLowest, max_top = kLowest;
-  forEachSeenVoxel(map, axes, filter, [&](const SeenVoxel& v, ClassId) {
+  forEachLowVoxel(map, axes, filter.highest, [&](const SeenVoxel& v, ClassId k) {
+    if (filter.hidden.count(k) > 0) {
+      left_out_.insert(k);
+      return;
+    }
     min_right = std::min(min_right, v.right);
     max_right = std::max(max_right, v.right);
     min_top = std::min(min_top, v.top);
@@ -47,7 +50,8 @@ ColumnGrid::ColumnGrid(const SemanticMap& map, const ViewAxes& axes, const Filte
   height_ = (max_top - min_top) / voxels_per_cell_ + 1;
   columns_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
 
-  forEachSeenVoxel(map, axes, filter, [&](const SeenVoxel& v, ClassId k) {
+  forEachLowVoxel(map, axes, filter.highest, [&](const SeenVoxel& v, ClassId k) {
+    if (filter.hidden.count(k) > 0) return;
     const int column = (v.right - min_right) / voxels_per_cell_;
     const int row = height_ - 1 - (v.top - min_top) / voxels_per_cell_;
     Column& cell = columns_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +

@@ -43,12 +43,15 @@ class ColumnGrid {
                     static_cast<std::size_t>(column)];
   }
   const std::vector<Column>& columns() const { return columns_; }
+  /// Hidden classes that the map does have.
+  const std::set<ClassId>& leftOut() const { return left_out_; }
 
  private:
   int width_ = 0;
   int height_ = 0;
   int voxels_per_cell_ = 1;
   std::vector<Column> columns_;
+  std::set<ClassId> left_out_;
 };
 
 }  // namespace csom

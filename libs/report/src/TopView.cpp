@@ -4,40 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <stdexcept>
 
 #include "Canvas.h"
 #include "ColumnGrid.h"
 #include "Format.h"
+#include "Legend.h"
+#include "Palette.h"
 
 namespace csom {
 
 namespace {
 
 constexpr int kMargin = 20;
-constexpr int kLegendLine = 22;
 constexpr int kFooterHeight = 68;
-constexpr int kSwatch = 14;
-constexpr std::size_t kMostLegendLines = 30;
-constexpr std::size_t kLongestName = 26;
 constexpr int kLargestVoxel = 24;
 // Room for the scale bar and the caption, however small the map.
 constexpr int kSmallestPanel = 300;
-
-constexpr Color kInk{40, 40, 40};
-constexpr Color kFrame{190, 190, 190};
-constexpr Color kFreeSpace{236, 236, 236};
-constexpr Color kUnknown{255, 255, 255};
-
-/// Colours and names, also of classes that the label set does not know.
-LabelClass classOf(const LabelSet& labels, ClassId k) {
-  if (k < labels.numberOfClasses()) return labels.at(k);
-  LabelClass unnamed;
-  unnamed.id = k;
-  unnamed.name = "class " + std::to_string(k);
-  return unnamed;
-}
 
 ColumnGrid::Filter filterOf(const LabelSet& labels, const TopViewOptions& options) {
   ColumnGrid::Filter filter;
@@ -105,56 +88,6 @@ cv::Mat paintCells(const ColumnGrid& grid, const LabelSet& labels) {
   return cells;
 }
 
-struct LegendEntry {
-  std::string name;
-  Color color;
-};
-
-std::string shorten(const std::string& name) {
-  return name.size() <= kLongestName ? name : name.substr(0, kLongestName - 3) + "...";
-}
-
-/// What the picture shows, the most frequent first.
-std::vector<LegendEntry> legendOf(const ColumnGrid& grid, const LabelSet& labels) {
-  std::map<ClassId, std::size_t> cells;
-  bool has_free = false;
-  for (const Column& column : grid.columns()) {
-    if (column.state == VoxelState::Occupied) ++cells[column.top_class];
-    has_free |= column.state == VoxelState::Free;
-  }
-  std::vector<std::pair<ClassId, std::size_t>> sorted(cells.begin(), cells.end());
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
-
-  std::vector<LegendEntry> legend;
-  for (const auto& [k, count] : sorted) {
-    if (legend.size() == kMostLegendLines) break;
-    const LabelClass label = classOf(labels, k);
-    legend.push_back({shorten(label.name), label.color});
-  }
-  if (sorted.size() > legend.size())
-    legend.push_back({"and " + std::to_string(sorted.size() - legend.size()) + " more", kUnknown});
-  if (has_free) legend.push_back({"free space", kFreeSpace});
-  legend.push_back({"unknown", kUnknown});
-  return legend;
-}
-
-int legendWidth(const std::vector<LegendEntry>& legend) {
-  int width = 0;
-  for (const LegendEntry& entry : legend) width = std::max(width, Canvas::textWidth(entry.name));
-  return kSwatch + 8 + width;
-}
-
-void drawLegend(Canvas& canvas, const std::vector<LegendEntry>& legend, cv::Point corner) {
-  for (const LegendEntry& entry : legend) {
-    const cv::Rect swatch(corner, cv::Size(kSwatch, kSwatch));
-    canvas.rectangle(swatch, entry.color);
-    canvas.frame(swatch, kFrame);
-    canvas.text(entry.name, corner + cv::Point(kSwatch + 8, kSwatch - 2), kInk);
-    corner.y += kLegendLine;
-  }
-}
-
 /// 1, 2 or 5 times a power of ten, at most `longest`.
 double roundLength(double longest) {
   const double power = std::pow(10.0, std::floor(std::log10(longest)));
@@ -202,17 +135,16 @@ std::vector<std::uint8_t> topViewPng(const MapDocument& document, const TopViewO
   const int cell_size =
       std::clamp(options.max_pixels / std::max(grid.width(), grid.height()), 1, kLargestVoxel);
   const cv::Size drawn(grid.width() * cell_size, grid.height() * cell_size);
-  const std::vector<LegendEntry> legend = legendOf(grid, document.labels);
-  const int legend_height = static_cast<int>(legend.size()) * kLegendLine;
+  const Legend legend(grid, document.labels);
   const cv::Rect panel(kMargin, kMargin, std::max(drawn.width, kSmallestPanel),
-                       std::max({drawn.height, legend_height, kSmallestPanel / 2}));
+                       std::max({drawn.height, legend.height(), kSmallestPanel / 2}));
 
-  Canvas canvas(panel.br().x + kMargin + legendWidth(legend) + kMargin,
+  Canvas canvas(panel.br().x + kMargin + legend.width() + kMargin,
                 panel.br().y + kFooterHeight + kMargin);
   const cv::Point centering((panel.width - drawn.width) / 2, (panel.height - drawn.height) / 2);
   canvas.image(paintCells(grid, document.labels), panel.tl() + centering, cell_size);
   canvas.frame(panel, kFrame);
-  drawLegend(canvas, legend, {panel.br().x + kMargin, panel.y});
+  legend.draw(canvas, {panel.br().x + kMargin, panel.y});
   const double metres_per_pixel =
       document.map.grid().resolution() * grid.voxelsPerCell() / cell_size;
   drawScaleBar(canvas, {panel.x, panel.br().y + 30}, metres_per_pixel);
