@@ -111,9 +111,12 @@ void printSummary(const RunRecord& record, const MapFigures& figures, const Outp
   std::printf("scans     %s with %s points, poses: %s\n",
               groupedDigits(record.scans.size()).c_str(), groupedDigits(sum.points).c_str(),
               record.pose_source.c_str());
-  std::printf("rejected  %s points, %s observations (reasons in run.json)\n",
-              groupedDigits(sum.rejectedTotal()).c_str(),
-              groupedDigits(record.observations_read - record.scans.size()).c_str());
+  if (sum.rejectedTotal() > 0)
+    std::printf("rejected  %s points (reasons in run.json)\n",
+                groupedDigits(sum.rejectedTotal()).c_str());
+  for (const RefusedObservations& refused : record.refused)
+    std::printf("unused    %s %s: %s\n", groupedDigits(refused.count).c_str(),
+                refused.observation_class.c_str(), refused.reason.c_str());
   std::printf("map       %s voxels known, %s occupied, %.1f MB: %s\n",
               groupedDigits(figures.known_voxels).c_str(),
               groupedDigits(figures.occupied_voxels).c_str(),

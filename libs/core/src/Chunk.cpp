@@ -157,25 +157,26 @@ std::vector<CountIncrement> Chunk::toIncrements() const {
 
 ChunkRef Chunk::sum(const Chunk* base, const std::vector<CountIncrement>& increments) {
   if (base == nullptr) return ChunkBuilder::build(increments);
-  const std::vector<CountIncrement> old = base->toIncrements();
-  const auto before = [](const CountIncrement& a, const CountIncrement& b) {
-    return a.voxel != b.voxel ? a.voxel < b.voxel : a.class_id < b.class_id;
+  const auto position = [](std::uint32_t voxel, std::uint32_t class_id) {
+    return voxel << 16U | class_id;
   };
   std::vector<CountIncrement> merged;
-  merged.reserve(old.size() + increments.size());
-  auto a = old.begin();
-  auto b = increments.begin();
-  while (a != old.end() || b != increments.end()) {
-    if (b == increments.end() || (a != old.end() && before(*a, *b))) {
-      merged.push_back(*a++);
-    } else if (a == old.end() || before(*b, *a)) {
-      merged.push_back(*b++);
-    } else {
-      merged.push_back({a->voxel, a->class_id, addCounts(a->count, b->count)});
-      ++a;
-      ++b;
+  merged.reserve(base->header().entry_count + increments.size());
+  auto next = increments.begin();
+  base->forEachKnown([&](int voxel) {
+    const Entries entries = base->at(voxel);
+    for (int i = 0; i < entries.size; ++i) {
+      CountIncrement entry{static_cast<std::uint16_t>(voxel), entries.classes[i],
+                           entries.counts[i]};
+      const std::uint32_t here = position(entry.voxel, entry.class_id);
+      while (next != increments.end() && position(next->voxel, next->class_id) < here)
+        merged.push_back(*next++);
+      if (next != increments.end() && position(next->voxel, next->class_id) == here)
+        entry.count = addCounts(entry.count, next++->count);
+      merged.push_back(entry);
     }
-  }
+  });
+  merged.insert(merged.end(), next, increments.end());
   return ChunkBuilder::build(merged);
 }
 

@@ -63,7 +63,9 @@ class Inference {
         neighbours_(detail::extendedBlock(options.context_neighbours)),
         blocks_per_chunk_(kChunkSide >> (scan.block_depth - 1)),
         block_side_(1 << (scan.block_depth - 1)),
-        reach_(std::max(1, reachOf(longestKernel()))) {
+        reach_(options.neighbourhood == Neighbourhood::ExtendedBlock
+                   ? 1
+                   : std::max(1, reachOf(longestKernel()))) {
     for (int offset = 0; offset <= reach_; ++offset) {
       const float gap = offset == 0 ? 0.0F : static_cast<float>((offset - 1) * block_side_) + 0.5F;
       gaps_squared_.push_back(gap * gap);
@@ -98,8 +100,7 @@ class Inference {
   struct Scratch {
     explicit Scratch(int classes) : sums(classes), class_mass(static_cast<std::size_t>(classes)) {}
     detail::BlockWindow window;
-    std::vector<RowOfBlocks> rows;  ///< around any block, for kernels of rows_length
-    float rows_length = 0;
+    std::vector<std::vector<RowOfBlocks>> rows;  ///< around any block; see rowsWithin()
     std::vector<detail::PointRange> ranges;
     std::vector<std::uint32_t> selected;
     detail::LaneSums sums;
@@ -192,40 +193,49 @@ class Inference {
   /// The ranges of points that may matter to a block of the chunk, z-major by block.
   void findNeighbourhood(const BlockIndex& block, float entropy, float length,
                          Scratch& scratch) const {
-    if (options_.neighbourhood == Neighbourhood::Radius) {
-      if (length != scratch.rows_length) rowsWithin(length, scratch);
-    } else {
-      rowsOfExtendedBlock(entropy <= kPureBlockEntropy, scratch);
-    }
+    const std::vector<RowOfBlocks>& rows = options_.neighbourhood == Neighbourhood::Radius
+                                               ? rowsWithin(length, scratch)
+                                               : rowsOfExtendedBlock(entropy, scratch);
     scratch.ranges.clear();
     const std::uint32_t* const here = scratch.window.startsAt(block.x, block.y, block.z);
-    for (const RowOfBlocks& row : scratch.rows) {
+    for (const RowOfBlocks& row : rows) {
       const std::uint32_t begin = here[row.first];
       const std::uint32_t end = here[row.last + 1];
       if (begin < end) scratch.ranges.push_back({begin, end});
     }
   }
 
-  /// Rows of blocks with a point nearer than `length` to a voxel centre, at best.
-  void rowsWithin(float length, Scratch& scratch) const {
-    scratch.rows.clear();
-    scratch.rows_length = length;
-    const float limit = length * length;
+  /// Rows of blocks that may hold a point nearer than `length` to a voxel centre. Lengths share
+  /// their rows by quarters of a voxel, rounded up: points too far are sorted out later.
+  const std::vector<RowOfBlocks>& rowsWithin(float length, Scratch& scratch) const {
+    constexpr float kSteps = 4;
+    const auto step = static_cast<std::size_t>(std::ceil(length * kSteps));
+    if (scratch.rows.size() <= step) scratch.rows.resize(step + 1);
+    std::vector<RowOfBlocks>& rows = scratch.rows[step];
+    if (!rows.empty()) return rows;
+    const float longest = static_cast<float>(step) / kSteps;
+    const float limit = longest * longest;
     for (int z = -reach_; z <= reach_; ++z)
       for (int y = -reach_; y <= reach_; ++y) {
         int x = -1;
         while (x < reach_ && gapSquared(x + 1) + gapSquared(y) + gapSquared(z) < limit) ++x;
         if (x >= 0)
-          scratch.rows.push_back({scratch.window.stride(-x, y, z), scratch.window.stride(x, y, z)});
+          rows.push_back({scratch.window.stride(-x, y, z), scratch.window.stride(x, y, z)});
       }
+    return rows;
   }
 
-  void rowsOfExtendedBlock(bool alone, Scratch& scratch) const {
-    scratch.rows.clear();
+  /// The block alone, or with the neighbours of its extended block.
+  const std::vector<RowOfBlocks>& rowsOfExtendedBlock(float entropy, Scratch& scratch) const {
+    scratch.rows.resize(2);
+    const bool alone = entropy <= kPureBlockEntropy;
+    std::vector<RowOfBlocks>& rows = scratch.rows[alone ? 0 : 1];
+    if (!rows.empty()) return rows;
     for (const detail::BlockOffset& d : neighbours_) {
       const std::ptrdiff_t at = scratch.window.stride(d.x, d.y, d.z);
-      if (!alone || d.kind() == 0) scratch.rows.push_back({at, at});
+      if (!alone || d.kind() == 0) rows.push_back({at, at});
     }
+    return rows;
   }
 
   /// Square of the least distance along one axis from a voxel centre of a block to a block so many
