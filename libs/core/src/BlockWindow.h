@@ -38,21 +38,15 @@ class BlockRows {
     return static_cast<std::size_t>(row - rows_.begin());
   }
 
-  /// The blocks of row (y, z) from x on. `cursor` remembers where the previous row was, so that
-  /// ascending y costs no search.
-  Range blocksFrom(std::int32_t x, std::int32_t y, std::int32_t z, std::size_t& cursor) const {
+  /// The blocks of row (y, z). `cursor` remembers where the previous row was, so that ascending y
+  /// costs no search.
+  Range row(std::int32_t y, std::int32_t z, std::size_t& cursor) const {
     while (cursor < rows_.size() &&
            (rows_[cursor].z < z || (rows_[cursor].z == z && rows_[cursor].y < y)))
       ++cursor;
     if (cursor == rows_.size() || rows_[cursor].z != z || rows_[cursor].y != y) return {};
-    const auto blocks = scan_->blocks.begin();
-    const std::size_t end =
-        cursor + 1 < rows_.size() ? rows_[cursor + 1].first_block : scan_->blocks.size();
-    const auto first =
-        std::lower_bound(blocks + static_cast<std::ptrdiff_t>(rows_[cursor].first_block),
-                         blocks + static_cast<std::ptrdiff_t>(end), x,
-                         [](const BlockIndex& b, std::int32_t at) { return b.x < at; });
-    return {static_cast<std::size_t>(first - blocks), end};
+    return {rows_[cursor].first_block,
+            cursor + 1 < rows_.size() ? rows_[cursor + 1].first_block : scan_->blocks.size()};
   }
 
  private:
@@ -70,18 +64,19 @@ class BlockRows {
 class BlockWindow {
  public:
   /// The cube reaches from `reach` blocks below `chunk_corner` to `reach` blocks beyond the
-  /// `chunk_edge` blocks of the chunk. A block is `block_side` voxels a side.
+  /// `chunk_edge` blocks of the chunk. A block is `block_side` voxels a side. All but the corner
+  /// must be the same in every call; going on to a chunk with greater x alone is cheapest.
   void moveTo(const BlockRows& rows, const BlockIndex& chunk_corner, int chunk_edge, int reach,
               int block_side) {
+    const bool goes_on = !remaining_.empty() && chunk_corner.y == corner_.y &&
+                         chunk_corner.z == corner_.z && chunk_corner.x > corner_.x;
+    corner_ = chunk_corner;
     edge_ = chunk_edge + 2 * reach;
     reach_ = reach;
-    const auto edge = static_cast<std::size_t>(edge_);
-    starts_.resize(edge * edge * (edge + 1));
+    if (!goes_on) findRows(rows);
     size_ = 0;
-    for (int z = 0; z < edge_; ++z) {
-      std::size_t cursor = rows.firstRow(chunk_corner.y - reach, chunk_corner.z + z - reach);
-      for (int y = 0; y < edge_; ++y) copyRow(rows, chunk_corner, y, z, cursor, block_side);
-    }
+    for (int z = 0; z < edge_; ++z)
+      for (int y = 0; y < edge_; ++y) copyRow(rows.scan(), y, z, block_side);
   }
 
   /// Block (x, y, z) of the chunk, counted from its lower corner and at most `reach` beyond it, has
@@ -103,17 +98,26 @@ class BlockWindow {
     return (static_cast<std::ptrdiff_t>(z) * edge_ + y) * (edge_ + 1);
   }
 
-  void copyRow(const BlockRows& rows, const BlockIndex& chunk_corner, int y, int z,
-               std::size_t& cursor, int block_side) {
-    const PreparedScan& scan = rows.scan();
-    const std::int32_t first_x = chunk_corner.x - reach_;
-    const BlockRows::Range range =
-        rows.blocksFrom(first_x, chunk_corner.y + y - reach_, chunk_corner.z + z - reach_, cursor);
+  void findRows(const BlockRows& rows) {
+    const auto edge = static_cast<std::size_t>(edge_);
+    starts_.resize(edge * edge * (edge + 1));
+    remaining_.clear();
+    for (int z = 0; z < edge_; ++z) {
+      std::size_t cursor = rows.firstRow(corner_.y - reach_, corner_.z + z - reach_);
+      for (int y = 0; y < edge_; ++y)
+        remaining_.push_back(rows.row(corner_.y + y - reach_, corner_.z + z - reach_, cursor));
+    }
+  }
+
+  void copyRow(const PreparedScan& scan, int y, int z, int block_side) {
+    const std::int32_t first_x = corner_.x - reach_;
+    BlockRows::Range& row = remaining_[static_cast<std::size_t>(z * edge_ + y)];
+    while (row.begin < row.end && scan.blocks[row.begin].x < first_x) ++row.begin;
     std::uint32_t* const starts = starts_.data() + rowOffset(y, z);
     const auto offset_y = static_cast<float>((y - reach_) * block_side);
     const auto offset_z = static_cast<float>((z - reach_) * block_side);
     int x = 0;
-    for (std::size_t b = range.begin; b < range.end && scan.blocks[b].x < first_x + edge_; ++b) {
+    for (std::size_t b = row.begin; b < row.end && scan.blocks[b].x < first_x + edge_; ++b) {
       const int block_x = scan.blocks[b].x - first_x;
       while (x <= block_x) starts[x++] = static_cast<std::uint32_t>(size_);
       const auto offset_x = static_cast<float>((block_x - reach_) * block_side);
@@ -136,8 +140,10 @@ class BlockWindow {
     point_.resize(2 * size + kLanes);
   }
 
+  BlockIndex corner_;
   int edge_ = 0;
   int reach_ = 0;
+  std::vector<BlockRows::Range> remaining_;  ///< of each row, the blocks not yet passed
   std::size_t size_ = 0;
   std::vector<std::uint32_t> starts_;
   std::vector<float> x_, y_, z_;
