@@ -68,6 +68,16 @@ TEST(SemanticMap, FreeSpaceOfBothKindsLiesBetweenSensorAndSurface) {
   }
 }
 
+TEST(SemanticMap, AScanThatFillsNothingLeavesTheMapEmpty) {
+  Options options = cornerOptions();
+  options.context_threshold = 1;  // no block reaches it
+  SemanticMap map(options);
+  const ScanReport report = map.insert(corner());
+  EXPECT_GT(report.blocks_observed, 0U);
+  EXPECT_EQ(report.blocks_filled, 0U);
+  EXPECT_TRUE(map.empty());
+}
+
 TEST(SemanticMap, InvalidOptionsAndUnequalMapsThrow) {
   Options bad;
   bad.resolution = 0;

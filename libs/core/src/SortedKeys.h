@@ -59,6 +59,7 @@ class KeyPacking {
   }
   /// Widens the box by `margin` on every side and fixes the number of bits; before pack().
   void finish(std::int64_t margin = 0) {
+    if (min_[0] > max_[0]) min_ = max_ = {0, 0, 0};  // there was none
     for (std::size_t a = 0; a < 3; ++a) {
       min_[a] -= margin;
       max_[a] += margin;
