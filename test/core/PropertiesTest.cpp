@@ -60,6 +60,31 @@ TEST_P(Properties, NumberOfThreadsDoesNotMatter) {
   });
 }
 
+TEST_P(Properties, NumberOfThreadsDoesNotMatterForAWideScan) {
+  // Hundreds of chunks, so that the work is really divided.
+  for (const FreeSpace free_space : {FreeSpace::None, FreeSpace::Sampled, FreeSpace::Raycast}) {
+    RandomCase random(99);
+    Options options;
+    options.method = GetParam();
+    options.number_of_classes = 5;
+    options.free_space = free_space;
+    options.free_resolution = 2;
+    Scan scan;
+    for (int i = 0; i < 4000; ++i) {
+      scan.points.push_back(
+          Eigen::Vector3d(random.real(-15, 15), random.real(-15, 15), random.real(-2, 2))
+              .cast<float>());
+      scan.labels.push_back(static_cast<ClassId>(random.integer(1, 4)));
+    }
+    const SemanticMap one = mapOf(options, {scan});
+    ASSERT_GT(one.chunks().chunkCount(), 200U);
+    for (const int threads : {2, 4}) {
+      options.threads = threads;
+      ASSERT_EQ(bytesOf(mapOf(options, {scan})), bytesOf(one)) << threads << " threads";
+    }
+  }
+}
+
 TEST_P(Properties, ShardsMergedInAnyOrderAreTheWhole) {
   forRandomCases(6, 40,
                  [](RandomCase& random, const Options& options, const std::vector<Scan>& scans) {
@@ -122,6 +147,12 @@ TEST_P(Properties, QuarterTurnTurnsTheMap) {
     const SemanticMap a = mapOf(options, {scan});
     const SemanticMap b = mapOf(options, {turned});
     countFilled(!a.empty());
+    // Both ways, so that neither map may hold a voxel that the other lacks.
+    b.forEachVoxel([&](const VoxelIndex& v, const DirichletVoxel& voxel) {
+      const DirichletVoxel image = a.voxel({v.y, -v.x - 1, v.z});
+      ASSERT_NEAR(voxel.evidence(), image.evidence(),
+                  options.number_of_classes * 1.01 * kCountQuantum + 1e-5 * voxel.evidence());
+    });
     a.forEachVoxel([&](const VoxelIndex& v, const DirichletVoxel& voxel) {
       const DirichletVoxel image = b.voxel({-v.y - 1, v.x, v.z});
       for (int k = 0; k < options.number_of_classes; ++k) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is rejected, and how points are thinned out and binned.
+#include <csom/core/ContextEntropy.h>
 #include <csom/core/ScanPreparation.h>
 #include <gtest/gtest.h>
 
@@ -135,6 +136,54 @@ TEST(ScanPreparation, FreeSamplesEndOneStepBeforeTheHit) {
     EXPECT_EQ(prepared.points[i].label, i == 3 ? 2 : kFreeClass);
     EXPECT_NEAR(prepared.points[i].x, 0.5, 1e-5);
   }
+}
+
+TEST(ScanPreparation, StrayPointsFarAwayCostNoFreeSpace) {
+  for (const FreeSpace kind : {FreeSpace::Sampled, FreeSpace::Raycast}) {
+    Options options = smallOptions();
+    options.free_space = kind;
+    options.free_resolution = 0.5;
+    Scan scan;
+    scan.points = {{90000, 0, 0}, {4000, 0, 0}};  // 180,000 and 8,000 steps
+    scan.labels = {1, 1};
+    ScanReport report;
+    prepareScan(scan, options, report);
+    EXPECT_EQ(rejected(report, RejectReason::BeamTooLong), 1U);
+    EXPECT_EQ(report.training_points, 1U);
+  }
+}
+
+TEST(ScanPreparation, MoreFreeSamplesThanMemoryAreRefused) {
+  Options options = smallOptions();
+  options.free_space = FreeSpace::Sampled;
+  options.free_resolution = 0.5;
+  Scan scan;
+  scan.points.assign(20000, {4000, 0, 0});
+  scan.labels.assign(20000, 1);
+  ScanReport report;
+  EXPECT_THROW(prepareScan(scan, options, report), std::invalid_argument);
+}
+
+TEST(ScanPreparation, AScanMayReachToItsLimitOnEveryAxis) {
+  // The widest scan that is accepted: its keys must not overflow, its blocks stay in order.
+  Options options;
+  options.resolution = 0.25;
+  options.block_depth = 1;
+  Scan scan;
+  const float end = 0.25F * ((1 << 20) - 5);
+  for (const float x : {-end, end})
+    for (const float y : {-end, end})
+      for (const float z : {-end, end}) scan.points.emplace_back(x, y, z);
+  scan.points.emplace_back(end * 1.001F, 0.0F, 0.0F);
+  scan.labels.assign(scan.points.size(), 1);
+  ScanReport report;
+  const PreparedScan prepared = prepareScan(scan, options, report);
+  EXPECT_EQ(rejected(report, RejectReason::OutsideIndexRange), 1U);
+  ASSERT_EQ(prepared.blocks.size(), 8U);
+  for (std::size_t b = 0; b + 1 < prepared.blocks.size(); ++b)
+    EXPECT_TRUE(prepared.blocks[b] < prepared.blocks[b + 1]);
+  EXPECT_EQ(prepared.blocks.front(), (BlockIndex{-(1 << 20) + 5, -(1 << 20) + 5, -(1 << 20) + 5}));
+  EXPECT_EQ(filledBlocks(prepared.blocks, options).size(), 8U);
 }
 
 TEST(ScanPreparation, LargeScansAreGroupedLikeSmallOnes) {

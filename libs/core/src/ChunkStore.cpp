@@ -116,4 +116,32 @@ std::vector<std::pair<ChunkIndex, const Chunk*>> ChunkStore::sorted() const {
   return out;
 }
 
+std::vector<std::pair<ChunkIndex, const Chunk*>> ChunkStore::sorted(const ChunkIndex& min,
+                                                                    const ChunkIndex& max) const {
+  std::vector<std::pair<ChunkIndex, const Chunk*>> out;
+  const auto edge = [](std::int32_t lo, std::int32_t hi) {
+    return std::max(0.0, static_cast<double>(hi) - lo + 1);
+  };
+  const double in_box = edge(min.x, max.x) * edge(min.y, max.y) * edge(min.z, max.z);
+  if (in_box < static_cast<double>(count_)) {  // a small box: ask for each of its chunks
+    for (std::int32_t z = min.z; z <= max.z; ++z)
+      for (std::int32_t y = min.y; y <= max.y; ++y)
+        for (std::int32_t x = min.x; x <= max.x; ++x) {
+          const ChunkIndex index{x, y, z};
+          const Chunk* const chunk = isAddressable(index) ? find(index) : nullptr;
+          if (chunk != nullptr) out.emplace_back(index, chunk);
+        }
+    return out;
+  }
+  const auto inside = [](std::int32_t i, std::int32_t lo, std::int32_t hi) {
+    return lo <= i && i <= hi;
+  };
+  for (const auto& entry : sorted()) {
+    const ChunkIndex& i = entry.first;
+    if (inside(i.x, min.x, max.x) && inside(i.y, min.y, max.y) && inside(i.z, min.z, max.z))
+      out.push_back(entry);
+  }
+  return out;
+}
+
 }  // namespace csom

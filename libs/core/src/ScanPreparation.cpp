@@ -17,8 +17,14 @@ using detail::KeyedItem;
 using detail::KeyPacking;
 
 constexpr double kScoreTolerance = 1e-3;
-/// Cells from the origin that a scan may reach along an axis: three axes of 21 bits fill a key.
-constexpr double kReachCells = 1 << 20;
+/// Cells from the origin that a scan may reach along an axis: three axes of 21 bits, with a margin
+/// of neighbours on both sides, fill a key.
+constexpr double kReachCells = (1 << 20) - 4;
+/// Steps of free space that one beam may take. A stray point a hundred kilometres away must not
+/// cost more than a scan.
+constexpr double kMostFreeSteps = 1 << 13;
+/// Free samples of one scan, before down-sampling: some gigabytes.
+constexpr double kMostFreeSamples = 1 << 27;
 
 /// Labelled points on their way through the stages, relative to the scan's origin.
 struct PointSet {
@@ -95,12 +101,25 @@ class Preparation {
     if (p.cwiseAbs().maxCoeff() >= kReachCells * cell || !grid_.contains(scan_.origin) ||
         !grid_.contains(scan_.origin + p))
       return RejectReason::OutsideIndexRange;
+    if (range > longestBeam()) return RejectReason::BeamTooLong;
     if (!scan_.isSoft()) {
       if (scan_.labels[i] >= options_.number_of_classes) return RejectReason::ClassOutOfRange;
     } else if (!validScores(rowOf(scan_.scores, i), options_.number_of_classes)) {
       return RejectReason::InvalidScores;
     }
     return std::nullopt;
+  }
+
+  double longestBeam() const {
+    switch (options_.free_space) {
+      case FreeSpace::Sampled:
+        return kMostFreeSteps * options_.free_resolution;
+      case FreeSpace::Raycast:
+        return kMostFreeSteps * options_.resolution;
+      case FreeSpace::None:
+        break;
+    }
+    return std::numeric_limits<double>::infinity();
   }
 
   PointSet accept() {
@@ -180,6 +199,12 @@ class Preparation {
 
   /// Points of class 0 every free_resolution along each beam, the last one that far before the hit.
   PointSet sampleFreeSpace(const PointSet& hits) const {
+    double samples = 0;
+    for (const Eigen::Vector3f& hit : hits.points)
+      samples += static_cast<double>(hit.norm()) / options_.free_resolution;
+    if (samples > kMostFreeSamples)
+      throw std::invalid_argument("the beams of this scan have " + toString(samples) +
+                                  " free samples; raise free_resolution or lower max_range");
     PointSet out;
     for (const Eigen::Vector3f& hit : hits.points) {
       const Eigen::Vector3d p = hit.cast<double>();

@@ -19,6 +19,8 @@ const char* toString(RejectReason reason) {
       return "invalid-scores";
     case RejectReason::OutsideIndexRange:
       return "outside-index-range";
+    case RejectReason::BeamTooLong:
+      return "beam-too-long";
   }
   return "invalid";
 }

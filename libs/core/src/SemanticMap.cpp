@@ -82,11 +82,8 @@ DirichletVoxel SemanticMap::view(const Chunk* chunk, int index_in_chunk) const {
 }
 
 DirichletVoxel SemanticMap::voxel(const VoxelIndex& index) const {
-  const auto addressable = [](std::int32_t i) {
-    return i >= -kMaxVoxelIndex - 1 && i <= kMaxVoxelIndex;
-  };
-  const bool inside = addressable(index.x) && addressable(index.y) && addressable(index.z);
-  return view(inside ? store_.find(chunkOf(index)) : nullptr, indexInChunk(index));
+  const ChunkIndex chunk = chunkOf(index);
+  return view(isAddressable(chunk) ? store_.find(chunk) : nullptr, indexInChunk(index));
 }
 
 DirichletVoxel SemanticMap::at(const Eigen::Vector3d& point) const {
@@ -170,6 +167,7 @@ std::optional<Neighbour> SemanticMap::nearestOccupied(const Eigen::Vector3d& poi
         const bool face = std::abs(z) == shell || std::abs(y) == shell;
         for (std::int32_t x = -shell; x <= shell; x += face || shell == 0 ? 1 : 2 * shell) {
           const ChunkIndex index{center.x + x, center.y + y, center.z + z};
+          if (!isAddressable(index)) continue;
           if (const Chunk* chunk = store_.find(index)) consider(index, *chunk);
         }
       }
@@ -203,9 +201,7 @@ std::size_t SemanticMap::memoryBytes() const {
 }
 
 void SemanticMap::addChunkRecord(const ChunkIndex& index, const void* bytes, std::size_t size) {
-  constexpr std::int32_t limit = (1 << 20) - 1;
-  const auto addressable = [](std::int32_t i) { return i >= -limit && i <= limit; };
-  if (!addressable(index.x) || !addressable(index.y) || !addressable(index.z))
+  if (!isAddressable(index))
     throw std::runtime_error("chunk index (" + std::to_string(index.x) + ", " +
                              std::to_string(index.y) + ", " + std::to_string(index.z) +
                              ") is outside the addressable range");

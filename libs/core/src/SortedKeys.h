@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -65,6 +66,7 @@ class KeyPacking {
       max_[a] += margin;
       bits_[a] = bitsFor(static_cast<std::uint64_t>(max_[a] - min_[a]));
     }
+    assert(bits() <= 64);
   }
   int bits() const { return bits_[0] + bits_[1] + bits_[2]; }
 

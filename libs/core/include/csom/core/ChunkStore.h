@@ -35,6 +35,9 @@ class ChunkStore {
 
   /// All chunks in z-major order of their indices.
   std::vector<std::pair<ChunkIndex, const Chunk*>> sorted() const;
+  /// Those of an inclusive box of chunks, in the same order.
+  std::vector<std::pair<ChunkIndex, const Chunk*>> sorted(const ChunkIndex& min,
+                                                          const ChunkIndex& max) const;
 
   /// Calls visit(ChunkIndex, const Chunk&) for every chunk, in no particular order.
   template <class Visitor>

@@ -15,10 +15,15 @@ constexpr int kChunkBits = 3;
 constexpr int kChunkSide = 1 << kChunkBits;
 constexpr int kVoxelsPerChunk = kChunkSide * kChunkSide * kChunkSide;
 
-/// Chunk indices have 21 bits an axis, voxel indices therefore 24: ±8,388,608 voxels from the
-/// map's origin (1,677 km at 0.2 m). Two chunks at each end stay unused, so that kernels around the
-/// outermost point need no check.
-constexpr std::int32_t kMaxVoxelIndex = (1 << 23) - 1 - 1024;
+/// Chunk indices have 21 bits an axis: ±8,388,600 voxels from the map's origin (1,677 km at 0.2 m).
+constexpr std::int32_t kMaxChunkIndex = (1 << 20) - 1;
+inline bool isAddressable(const ChunkIndex& c) {
+  const auto inside = [](std::int32_t i) { return i >= -kMaxChunkIndex && i <= kMaxChunkIndex; };
+  return inside(c.x) && inside(c.y) && inside(c.z);
+}
+
+/// Points stay 1024 voxels away from the last chunk, so that kernels around them need no check.
+constexpr std::int32_t kMaxVoxelIndex = kMaxChunkIndex * kChunkSide - 1024;
 
 inline std::int32_t chunkOf(std::int32_t voxel) {
   return voxel >> kChunkBits;
@@ -54,7 +59,7 @@ class Grid {
 
   double resolution() const { return resolution_; }
 
-  /// True if the voxel that holds this point can be addressed; false for NaN and infinities.
+  /// True if a point may lie there (see kMaxVoxelIndex); false for NaN and infinities.
   bool contains(const Eigen::Vector3d& point) const {
     const double limit = resolution_ * kMaxVoxelIndex;
     return point.cwiseAbs().maxCoeff() <= limit && point.allFinite();

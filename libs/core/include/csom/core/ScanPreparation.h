@@ -38,10 +38,12 @@ struct PreparedScan {
 };
 
 /// Steps 0 to 3 of docs/algorithm.md. Bad points are counted in `report`, never thrown for; throws
-/// std::invalid_argument if labels or scores do not match the points.
+/// std::invalid_argument if labels or scores do not match the points, or if there are more than
+/// 2^27 free samples.
 ///
-/// A scan may reach 2^20 voxels (and down-sampling cells) from its origin along each axis; points
-/// beyond are rejected as OutsideIndexRange.
+/// A scan may reach almost 2^20 voxels (and down-sampling cells) from its origin along each axis;
+/// points beyond are rejected as OutsideIndexRange. With free space, points farther than 8192 steps
+/// of it (free_resolution or voxels) are rejected as BeamTooLong.
 PreparedScan prepareScan(const Scan& scan, const Options& options, ScanReport& report);
 
 }  // namespace csom

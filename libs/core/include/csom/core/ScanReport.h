@@ -15,8 +15,9 @@ enum class RejectReason {
   ClassOutOfRange,    ///< class id ≥ number_of_classes
   InvalidScores,      ///< soft labels negative, non-finite or not summing to 1 ± 1e-3
   OutsideIndexRange,  ///< beyond what voxel indices can address
+  BeamTooLong,        ///< free space along it would take more than 8192 steps
 };
-constexpr std::size_t kRejectReasons = 6;
+constexpr std::size_t kRejectReasons = 7;
 
 /// "non-finite", "too-near", … as used in reports.
 const char* toString(RejectReason reason);
@@ -30,7 +31,7 @@ struct ScanReport {
   std::size_t free_voxels = 0;                         ///< voxels crossed by beams (raycast)
   std::size_t blocks_observed = 0;
   std::size_t blocks_filled = 0;   ///< blocks with f_J = 1
-  std::size_t voxels_updated = 0;  ///< voxels that received any count
+  std::size_t voxels_updated = 0;  ///< voxels that received kernel mass
   double prepare_ms = 0;           ///< reject, down-sample, free space, bin
   double infer_ms = 0;             ///< entropies and kernels
   double commit_ms = 0;            ///< adding the counts to the map

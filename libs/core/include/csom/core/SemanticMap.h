@@ -44,9 +44,9 @@ class SemanticMap {
   const Options& options() const { return options_; }
   const Grid& grid() const { return grid_; }
 
-  /// Adds one scan. Bad points are rejected and counted, never thrown for; throws
-  /// std::invalid_argument if labels or scores do not match the number of points. The map is
-  /// unchanged if it throws.
+  /// Adds one scan. Bad points are rejected and counted, never thrown for. Throws
+  /// std::invalid_argument, and leaves the map as it was, if labels or scores do not match the
+  /// points or free samples are too many (see ScanPreparation.h).
   ScanReport insert(const Scan& scan);
 
   /// Adds another map of the same resolution, classes and prior, exactly: merge(a,b) holds the same
@@ -89,7 +89,7 @@ class SemanticMap {
 
   /// The storage, for readers and writers of files and streams.
   const ChunkStore& chunks() const { return store_; }
-  /// Adds the counts of a chunk record (see ChunkStore.h) to this map. Throws std::runtime_error
+  /// Adds the counts of a chunk record (see Chunk.h) to this map. Throws std::runtime_error
   /// with the reason if the bytes are not a valid record of a map with `number_of_classes` classes.
   void addChunkRecord(const ChunkIndex& index, const void* bytes, std::size_t size);
 
@@ -114,21 +114,16 @@ void SemanticMap::forEachVoxel(Visitor&& visit) const {
 
 template <class Visitor>
 void SemanticMap::forEachVoxelInBox(const VoxelBox& box, Visitor&& visit) const {
-  const ChunkIndex lo = chunkOf(box.min);
-  const ChunkIndex hi = chunkOf(box.max);
   const auto inside = [](std::int32_t v, std::int32_t min, std::int32_t max) {
     return min <= v && v <= max;
   };
-  for (const auto& [index, chunk] : store_.sorted()) {
-    if (!inside(index.x, lo.x, hi.x) || !inside(index.y, lo.y, hi.y) ||
-        !inside(index.z, lo.z, hi.z))
-      continue;
+  for (const auto& [index, chunk] : store_.sorted(chunkOf(box.min), chunkOf(box.max))) {
     const ChunkIndex origin = index;
-    chunk->forEachKnown([&](int in_chunk) {
+    chunk->forEachKnown([&, in_chunk_of = chunk](int in_chunk) {
       const VoxelIndex v = voxelOfChunk(origin, in_chunk);
       if (inside(v.x, box.min.x, box.max.x) && inside(v.y, box.min.y, box.max.y) &&
           inside(v.z, box.min.z, box.max.z))
-        visit(v, view(chunk, in_chunk));
+        visit(v, view(in_chunk_of, in_chunk));
     });
   }
 }
