@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Likelihood and matching prefer the true pose.
+#include <csom/core/Error.h>
 #include <csom/maps/CSemanticContinuousMap.h>
 #include <gtest/gtest.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -20,6 +21,22 @@ using testing::roomCloud;
 using testing::roomMap;
 using testing::roomPoints;
 using testing::sampleMap;
+
+mrpt::maps::CSimplePointsMap roomPointsMap() {
+  mrpt::maps::CSimplePointsMap points;
+  for (const Eigen::Vector3f& p : roomPoints()) points.insertPoint(p.x(), p.y(), p.z());
+  return points;
+}
+
+float ratioOf3dMatches(const CSemanticContinuousMap& map,
+                       const mrpt::maps::CSimplePointsMap& other) {
+  mrpt::maps::TMatchingParams params;
+  params.maxDistForCorrespondence = 0.3f;
+  mrpt::tfest::TMatchingPairList pairs;
+  mrpt::maps::TMatchingExtraResults results;
+  map.determineMatching3D(&other, CPose3D(), pairs, params, results);
+  return results.correspondencesRatio;
+}
 
 TEST(Likelihood, fallsWithTheDistanceFromTheTruth) {
   const CSemanticContinuousMap map = roomMap();
@@ -54,28 +71,51 @@ TEST(Likelihood, saysNothingWithoutPoints) {
   EXPECT_EQ(map.computeObservationLikelihood(*testing::laserScan(0), CPose3D()), 0);
 }
 
+TEST(Likelihood, saysNothingOfACloudWhoseFileIsMissing) {
+  const CSemanticContinuousMap map = roomMap();
+  using mrpt::obs::CObservationPointCloud;
+  for (const auto format : {CObservationPointCloud::ExternalStorageFormat::MRPT_Serialization,
+                            CObservationPointCloud::ExternalStorageFormat::KittiBinFile}) {
+    CObservationPointCloud observation;
+    observation.setAsExternalStorage("csom_no_such_file.bin", format);
+    ASSERT_TRUE(map.canComputeObservationLikelihood(observation));
+    EXPECT_EQ(map.computeObservationLikelihood(observation, CPose3D()), 0);
+  }
+}
+
+TEST(Likelihood, wrongOptionsAreNoDamagedObservation) {
+  CSemanticContinuousMap map = roomMap();
+  map.insertionOptions.unlabelled_class = "lawn";
+  EXPECT_THROW(map.computeObservationLikelihood(*roomCloud(), CPose3D()), ConfigError);
+}
+
 TEST(Likelihood, isTheSameFromManyThreads) {
   const CSemanticContinuousMap map = roomMap();
   const auto observation = roomCloud();
   const double expected = map.computeObservationLikelihood(*observation, CPose3D());
   std::vector<double> values(4);
   std::vector<std::size_t> points(values.size());
+  std::vector<float> ratios(values.size());
+  std::vector<mrpt::math::TBoundingBoxf> boxes(values.size());
+  const mrpt::maps::CSimplePointsMap other = roomPointsMap();
   std::vector<std::thread> threads;
   for (std::size_t i = 0; i < values.size(); ++i) {
     threads.emplace_back([&, i] {
       values[i] = map.computeObservationLikelihood(*observation, CPose3D());
       points[i] = map.getAsSimplePointsMap()->size();
+      ratios[i] = ratioOf3dMatches(map, other);
+      boxes[i] = map.getAsSimplePointsMap()->boundingBox();
     });
   }
   for (std::thread& thread : threads) thread.join();
   for (const double value : values) EXPECT_EQ(value, expected);
   for (const std::size_t count : points) EXPECT_EQ(count, map.getAsSimplePointsMap()->size());
-}
-
-mrpt::maps::CSimplePointsMap roomPointsMap() {
-  mrpt::maps::CSimplePointsMap points;
-  for (const Eigen::Vector3f& p : roomPoints()) points.insertPoint(p.x(), p.y(), p.z());
-  return points;
+  for (const float ratio : ratios) EXPECT_GT(ratio, 0.99f);
+  const auto box = map.getAsSimplePointsMap()->boundingBox();
+  for (const auto& each : boxes) {
+    EXPECT_EQ(each.min, box.min);
+    EXPECT_EQ(each.max, box.max);
+  }
 }
 
 TEST(Matching, findsItsOwnPoints) {

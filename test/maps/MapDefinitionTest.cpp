@@ -179,6 +179,33 @@ TEST_F(MapDefinition, exactlyOneMapIsNeeded) {
                FileError);
 }
 
+TEST_F(MapDefinition, countsAreAddedUpNotBelieved) {
+  const auto error_of = [&](const std::string& counts) -> std::string {
+    try {
+      CSemanticContinuousMap::definitionFromIni(file("[MappingApplication]\n" + counts));
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_THAT(error_of("semanticContinuousMap_count = 2000000000\n"),
+              HasSubstr("defines 2000000000 semantic maps"));
+  EXPECT_THAT(error_of("semanticContinuousMap_count = 2147483647\n"
+                       "CSemanticContinuousMap_count = 2147483647\n"),
+              HasSubstr("defines 4294967294 semantic maps"));
+  EXPECT_THAT(error_of("semanticContinuousMap_count = 1\nCSemanticContinuousMap_count = -1\n"),
+              HasSubstr("CSemanticContinuousMap_count = -1 must not be negative"));
+}
+
+TEST_F(MapDefinition, caseOfSectionsAndKeysDoesNotMatter) {
+  const Definition definition = load(section("CreationOpts") + "Resolution = 0.35\n");
+  EXPECT_EQ(definition.options.resolution, 0.35);
+  EXPECT_THAT(definition.unknownKeys(), ElementsAre());
+  EXPECT_THAT(load("[mappingapplication_semanticcontinuousmap_00_inserOpts]\nmax_range = 5\n")
+                  .unknownKeys(),
+              ElementsAre(HasSubstr("inserOpts] max_range")));
+}
+
 TEST_F(MapDefinition, otherNamesOfTheMapWorkToo) {
   const Definition definition = CSemanticContinuousMap::definitionFromIni(
       file("[M]\nCSemanticContinuousMap_count = 1\n"

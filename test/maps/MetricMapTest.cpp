@@ -97,6 +97,31 @@ TEST(MetricMap, refusesWhatItCannotUseWithoutThrowing) {
   EXPECT_EQ(statistics.without_points, 2u);
 }
 
+TEST(MetricMap, tellsWhatBecameOfTheLastObservation) {
+  using Outcome = LastInsertion::Outcome;
+  CSemanticContinuousMap map = sampleMap();
+  map.announce_damaged = false;
+  map.insertObservation(*roomCloud());
+  EXPECT_EQ(map.lastInsertion().outcome, Outcome::Inserted);
+  map.insertObservation(mrpt::obs::CObservationOdometry());
+  EXPECT_EQ(map.lastInsertion().outcome, Outcome::NotTaken);
+  map.insertObservation(*laserScan(0));
+  EXPECT_EQ(map.lastInsertion().outcome, Outcome::NoPoints);
+  map.insertObservation(mrpt::obs::CObservationPointCloud());
+  EXPECT_EQ(map.lastInsertion().outcome, Outcome::Damaged);
+  EXPECT_EQ(map.lastInsertion().reason, "it has no point cloud");
+
+  CPose3D nowhere;
+  nowhere.x(std::numeric_limits<double>::infinity());
+  map.insertObservation(*roomCloud(), nowhere);
+  EXPECT_EQ(map.lastInsertion().outcome, Outcome::Damaged);
+  EXPECT_NE(map.lastInsertion().reason, "it has no point cloud") << "that was another one";
+
+  map.genericMapParams.enableObservationInsertion = false;
+  map.insertObservation(*roomCloud());
+  EXPECT_EQ(map.lastInsertion().outcome, Outcome::Disabled);
+}
+
 TEST(MetricMap, equalsADirectLoopOverTheCore) {
   CSemanticContinuousMap map = sampleMap();
   SemanticMap direct(map.map().options());
@@ -164,6 +189,24 @@ TEST(MetricMap, documentRoundTrip) {
   EXPECT_EQ(other.labels().name(), "sample");
   EXPECT_EQ(other.scans().size(), 1u);
   EXPECT_EQ(other.statistics().inserted, 1u);
+
+  // Counts go on from those of the document.
+  const auto insert_faults = [](CSemanticContinuousMap& into) {
+    into.announce_damaged = false;
+    into.insertObservation(*pointCloud({{1, 0, 0}, {2, 0, 0}}, {40, 77}));
+    into.insertObservation(mrpt::obs::CObservationOdometry());
+    into.insertObservation(mrpt::obs::CObservationPointCloud());
+  };
+  CSemanticContinuousMap faulty = roomMap();
+  insert_faults(faulty);
+  other = sampleMap();
+  other.setDocument(faulty.document());
+  EXPECT_EQ(other.document().meta, faulty.document().meta);
+  insert_faults(other);
+  const auto meta = other.document().meta;
+  EXPECT_EQ(meta.at("points_with_unknown_label_dropped"), "2");
+  EXPECT_EQ(meta.at("observations_not_taken"), "CObservationOdometry 2");
+  EXPECT_EQ(meta.at("observations_damaged"), "CObservationPointCloud 2");
 
   MapDocument inconsistent = map.document();
   inconsistent.labels = LabelSet::occupancy();

@@ -4,7 +4,10 @@
 #include <csom/maps/CSemanticContinuousMap.h>
 #include <csom/maps/PoseRounding.h>
 
+#include <algorithm>
+#include <charconv>
 #include <iostream>
+#include <optional>
 #include <utility>
 
 #include "ObservationName.h"
@@ -30,8 +33,35 @@ std::string oneLine(const std::string& what) {
 std::string listOf(const std::map<std::string, std::size_t>& counts) {
   std::string list;
   for (const auto& [name, count] : counts)
-    list += (list.empty() ? "" : ", ") + name + " " + std::to_string(count);
+    list += (list.empty() ? "" : ", ") + name + (name.empty() ? "" : " ") + std::to_string(count);
   return list;
+}
+
+/// The inverse of listOf(); a bare number is the count of no name. Nothing if it is neither.
+std::optional<std::map<std::string, std::size_t>> parseList(const std::string& list) {
+  std::map<std::string, std::size_t> counts;
+  for (std::size_t begin = 0; begin < list.size();) {
+    const std::size_t end = std::min(list.find(", ", begin), list.size());
+    const std::string item = list.substr(begin, end - begin);
+    const std::size_t blank = item.rfind(' ');
+    const std::string name = blank == std::string::npos ? "" : item.substr(0, blank);
+    const char* const digits = item.data() + (blank == std::string::npos ? 0 : blank + 1);
+    std::size_t count = 0;
+    const auto parsed = std::from_chars(digits, item.data() + item.size(), count);
+    if (parsed.ec != std::errc() || parsed.ptr != item.data() + item.size()) return std::nullopt;
+    counts[name] += count;
+    begin = end + 2;
+  }
+  return counts;
+}
+
+/// Two values of describe() as one. A text that describe() has not written stays in front.
+std::string addCounts(const std::string& noted, const std::string& more) {
+  auto sum = parseList(noted);
+  const auto added = parseList(more);
+  if (!sum || !added) return noted + ", " + more;
+  for (const auto& [name, count] : *added) (*sum)[name] += count;
+  return listOf(*sum);
 }
 
 /// What a file says of the points and observations that are not in the map.
@@ -68,6 +98,7 @@ CSemanticContinuousMap::CSemanticContinuousMap(const CSemanticContinuousMap& oth
       labels_(other.labels_),
       scans_(other.scans_),
       statistics_(other.statistics_),
+      last_insertion_(other.last_insertion_),
       meta_(other.meta_) {
   genericMapParams = other.genericMapParams;
 }
@@ -83,6 +114,7 @@ CSemanticContinuousMap& CSemanticContinuousMap::operator=(const CSemanticContinu
   labels_ = other.labels_;
   scans_ = other.scans_;
   statistics_ = other.statistics_;
+  last_insertion_ = other.last_insertion_;
   meta_ = other.meta_;
   adapter_.reset();
   invalidatePoints();
@@ -91,7 +123,10 @@ CSemanticContinuousMap& CSemanticContinuousMap::operator=(const CSemanticContinu
 
 MapDocument CSemanticContinuousMap::document() const {
   MapDocument document{map_, *labels_, scans_, meta_};
-  for (const auto& [key, value] : describe(statistics_)) document.meta[key] = value;
+  for (const auto& [key, value] : describe(statistics_)) {
+    std::string& noted = document.meta[key];
+    noted = noted.empty() ? value : addCounts(noted, value);
+  }
   return document;
 }
 
@@ -103,6 +138,7 @@ void CSemanticContinuousMap::setDocument(MapDocument document) {
   scans_ = std::move(document.scans);
   meta_ = std::move(document.meta);
   statistics_ = {};
+  last_insertion_ = {};
   statistics_.inserted = scans_.size();
   adapter_.reset();
   invalidatePoints();
@@ -127,9 +163,16 @@ void CSemanticContinuousMap::internal_clear() {
   map_.clear();
   scans_.clear();
   statistics_ = {};
+  last_insertion_ = {};
   meta_.clear();
   adapter_.reset();
   invalidatePoints();
+}
+
+LastInsertion CSemanticContinuousMap::lastInsertion() const {
+  // MRPT's insertObservation() does not even ask a map that is switched off.
+  if (!genericMapParams.enableObservationInsertion) return {LastInsertion::Outcome::Disabled, {}};
+  return last_insertion_;
 }
 
 void CSemanticContinuousMap::invalidatePoints() {
@@ -153,15 +196,19 @@ bool CSemanticContinuousMap::internal_insertObservation(
     adapted = adapter_->adapt(observation, pose, rules);
   } catch (const std::exception& error) {
     // An application must not stop because of one damaged observation.
-    noteDamaged(observation, oneLine(error.what()));
+    last_insertion_ = {LastInsertion::Outcome::Damaged, oneLine(error.what())};
+    noteDamaged(observation, last_insertion_.reason);
     return false;
   }
   if (!adapted) {
+    last_insertion_ = {LastInsertion::Outcome::NotTaken, {}};
     ++statistics_.not_taken[observationName(observation)];
     return false;
   }
   bool used = false;
   for (const AdaptedScan& scan : *adapted) used |= insertScan(scan);
+  last_insertion_ = {used ? LastInsertion::Outcome::Inserted : LastInsertion::Outcome::NoPoints,
+                     {}};
   return used;
 }
 

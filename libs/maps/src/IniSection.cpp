@@ -10,12 +10,6 @@
 namespace csom {
 namespace {
 
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 std::string trimmed(const std::string& text) {
   constexpr char kBlanks[] = " \t\r\n";
   const std::size_t first = text.find_first_not_of(kBlanks);
@@ -34,6 +28,12 @@ std::string withoutComment(const std::string& text) {
 }
 
 }  // namespace
+
+std::string lowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
 
 std::string fileOf(const mrpt::config::CConfigFileBase& source) {
   const auto* file = dynamic_cast<const mrpt::config::CConfigFile*>(&source);

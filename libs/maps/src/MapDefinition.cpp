@@ -4,6 +4,7 @@
 #include <csom/maps/CSemanticContinuousMap.h>
 #include <mrpt/config/CConfigFile.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -36,19 +37,20 @@ void readInsertion(IniSection& section, CSemanticContinuousMap::TInsertionOption
   section.read("scan_2d_class", options.scan_2d_class);
 }
 
-void requirePositive(const IniSection& section, const std::string& key, double value) {
-  if (!(value > 0))
-    throw ConfigError(section.place() + ": " + key + " = " + toString(value) +
-                      " must be greater than 0");
+void requirePositive(const std::string& key, double value) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw OptionError(key + " = " + toString(value) + " must be finite and greater than 0");
 }
 
 void readLikelihood(IniSection& section, CSemanticContinuousMap::TLikelihoodOptions& options) {
   section.read("decimation", options.decimation);
   section.read("max_distance", options.max_distance);
   section.read("sigma", options.sigma);
-  requirePositive(section, "decimation", options.decimation);
-  requirePositive(section, "max_distance", options.max_distance);
-  requirePositive(section, "sigma", options.sigma);
+  try {
+    options.validate();
+  } catch (const OptionError& error) {
+    throw ConfigError(section.place() + ": " + error.what());
+  }
 }
 
 void readRendering(IniSection& section, CSemanticContinuousMap::TRenderingOptions& options) {
@@ -73,7 +75,7 @@ class DefinitionReader {
     for (const std::string& suffix : suffixes) {
       IniSection section(source_, prefix_ + suffix);
       read(section);
-      known_.insert(prefix_ + suffix);
+      known_.insert(lowerCase(prefix_ + suffix));
       const std::vector<std::string> unread = section.unreadKeys();
       unknown_.insert(unknown_.end(), unread.begin(), unread.end());
     }
@@ -83,9 +85,10 @@ class DefinitionReader {
     std::vector<std::string> all = unknown_;
     std::vector<std::string> sections;
     source_.getAllSections(sections);
+    const std::string start = lowerCase(prefix_ + "_");
     for (const std::string& name : sections) {
-      if (name.compare(0, prefix_.size() + 1, prefix_ + "_") != 0 || known_.count(name) != 0)
-        continue;
+      const std::string lower = lowerCase(name);
+      if (lower.compare(0, start.size(), start) != 0 || known_.count(lower) != 0) continue;
       std::vector<std::string> keys;
       source_.getAllKeys(name, keys);
       for (const std::string& key : keys)
@@ -97,7 +100,7 @@ class DefinitionReader {
  private:
   const CConfigFileBase& source_;
   std::string prefix_;
-  std::set<std::string> known_;
+  std::set<std::string> known_;  ///< in lower case
   std::vector<std::string> unknown_;
 };
 
@@ -208,27 +211,27 @@ CSemanticContinuousMap::TMapDefinition CSemanticContinuousMap::definitionFromIni
   if (!std::ifstream(file)) throw FileError(file, "cannot be read");
   const mrpt::config::CConfigFile ini(file);
 
-  std::vector<std::string> prefixes;
+  IniSection section(ini, application_section);
+  std::int64_t maps = 0;
+  std::string defined;
   std::vector<std::string> count_keys;
   for (const char* name : kMapNames) {
-    IniSection section(ini, application_section);
     const std::string key = std::string(name) + "_count";
     count_keys.push_back(key);
     int count = 0;
     section.read(key, count);
-    for (int i = 0; i < count; ++i) {
-      std::string number = std::to_string(i);
-      if (number.size() < 2) number.insert(0, "0");
-      prefixes.push_back(application_section + "_" + name + "_" + number);
-    }
+    if (count < 0)
+      throw ConfigError(section.place() + ": " + key + " = " + toString(count) +
+                        " must not be negative");
+    if (count > 0) defined = name;
+    maps += count;
   }
-  if (prefixes.size() != 1) {
-    throw ConfigError(file + " [" + application_section + "] defines " +
-                      std::to_string(prefixes.size()) +
+  if (maps != 1) {
+    throw ConfigError(section.place() + " defines " + std::to_string(maps) +
                       " semantic maps; set exactly one of these keys to 1: " + joined(count_keys));
   }
   TMapDefinition definition;
-  definition.load(ini, prefixes.front());
+  definition.load(ini, application_section + "_" + defined + "_00");
   return definition;
 }
 
@@ -248,6 +251,12 @@ void CSemanticContinuousMap::TLikelihoodOptions::loadFromConfigFile(const CConfi
                                                                     const std::string& section) {
   IniSection ini(source, section);
   readLikelihood(ini, *this);
+}
+
+void CSemanticContinuousMap::TLikelihoodOptions::validate() const {
+  requirePositive("decimation", decimation);
+  requirePositive("max_distance", max_distance);
+  requirePositive("sigma", sigma);
 }
 
 void CSemanticContinuousMap::TLikelihoodOptions::dumpToTextStream(std::ostream& out) const {

@@ -10,14 +10,6 @@
 namespace csom {
 namespace {
 
-std::optional<SensorPoints> pointsOf(const mrpt::obs::CObservation& observation,
-                                     const LabelRules& rules) {
-  for (const auto& extractor : makePointExtractors()) {
-    if (extractor->accepts(observation)) return extractor->extract(observation, rules);
-  }
-  return std::nullopt;
-}
-
 double squaredDistance(const SemanticMap& map, const Eigen::Vector3d& point, double max_distance) {
   const std::optional<Neighbour> nearest = map.nearestOccupied(point, max_distance);
   const double distance = nearest ? nearest->distance : max_distance;
@@ -28,29 +20,29 @@ double squaredDistance(const SemanticMap& map, const Eigen::Vector3d& point, dou
 
 bool CSemanticContinuousMap::internal_canComputeObservationLikelihood(
     const mrpt::obs::CObservation& observation) const {
-  const auto extractors = makePointExtractors();
-  return std::any_of(extractors.begin(), extractors.end(),
-                     [&](const auto& extractor) { return extractor->accepts(observation); });
+  return findPointExtractor(observation) != nullptr;
 }
 
 double CSemanticContinuousMap::internal_computeObservationLikelihood(
     const mrpt::obs::CObservation& observation, const mrpt::poses::CPose3D& taken_from) const {
-  constexpr double kSaysNothing = 0;  // the same for every pose
-  std::optional<SensorPoints> points;
+  constexpr double kSaysNothing = 0;      // the same for every pose
+  const LabelRules rules = labelRules();  // throws: a wrong option is no damaged observation
+  const PointExtractor* extractor = findPointExtractor(observation);
+  if (extractor == nullptr) return kSaysNothing;
+  SensorPoints seen;
   Eigen::Isometry3d sensor;
   try {
-    points = pointsOf(observation, labelRules());
-    if (!points) return kSaysNothing;
-    sensor = sensorPoseInMap(roundedPose(taken_from), points->sensor_pose);
-  } catch (const std::runtime_error&) {
-    return kSaysNothing;  // damaged: counted and reported when it is inserted
+    seen = extractor->extract(observation, rules);
+    sensor = sensorPoseInMap(roundedPose(taken_from), seen.sensor_pose);
+  } catch (const std::exception&) {  // MRPT throws logic_error for a file that is missing
+    return kSaysNothing;             // damaged: counted and reported when it is inserted
   }
 
   const auto step = static_cast<std::size_t>(std::max(1, likelihoodOptions.decimation));
   double sum = 0;
   std::size_t used = 0;
-  for (std::size_t i = 0; i < points->points.size(); i += step) {
-    const Eigen::Vector3d point = points->points[i].cast<double>();
+  for (std::size_t i = 0; i < seen.points.size(); i += step) {
+    const Eigen::Vector3d point = seen.points[i].cast<double>();
     if (!point.allFinite()) continue;
     sum += squaredDistance(map_, sensor * point, likelihoodOptions.max_distance);
     ++used;

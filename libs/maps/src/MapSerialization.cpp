@@ -257,6 +257,7 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
   likelihood.decimation = block.number<std::int32_t>();
   likelihood.max_distance = block.number<double>();
   likelihood.sigma = block.number<double>();
+  likelihood.validate();
   MapDocument document{SemanticMap(readOptions(block)),
                        LabelSet::fromYaml(block.text(), "serialised map"),
                        {},

@@ -65,22 +65,18 @@ AdaptedScan makeScan(const SensorPoints& points, const Eigen::Isometry3d& robot_
   return out;
 }
 
-SelfLabelledAdapter::SelfLabelledAdapter() : extractors_(makePointExtractors()) {}
-
 std::optional<std::vector<AdaptedScan>> SelfLabelledAdapter::adapt(
     const mrpt::obs::CObservation& observation, const Eigen::Isometry3d& robot_pose,
     const LabelRules& rules) {
-  for (const auto& extractor : extractors_) {
-    if (!extractor->accepts(observation)) continue;
-    AdaptedScan adapted = makeScan(extractor->extract(observation, rules), robot_pose, rules);
-    adapted.timestamp = secondsSince1970(observation);
-    adapted.sensor_label = observation.sensorLabel;
-    adapted.observation_class = observationName(observation);
-    std::vector<AdaptedScan> scans;
-    scans.push_back(std::move(adapted));
-    return scans;
-  }
-  return std::nullopt;
+  const PointExtractor* extractor = findPointExtractor(observation);
+  if (extractor == nullptr) return std::nullopt;
+  AdaptedScan adapted = makeScan(extractor->extract(observation, rules), robot_pose, rules);
+  adapted.timestamp = secondsSince1970(observation);
+  adapted.sensor_label = observation.sensorLabel;
+  adapted.observation_class = observationName(observation);
+  std::vector<AdaptedScan> scans;
+  scans.push_back(std::move(adapted));
+  return scans;
 }
 
 }  // namespace csom

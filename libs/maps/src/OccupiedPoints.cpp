@@ -13,6 +13,9 @@ std::unique_ptr<mrpt::maps::CSimplePointsMap> makePoints(const SemanticMap& map)
     points->insertPointFast(center.x(), center.y(), center.z());
   });
   points->mark_as_modified();
+  // MRPT computes these when first asked for, without a lock: now, while one thread has the map.
+  points->boundingBox();
+  points->getLargestDistanceFromOrigin();
   return points;
 }
 

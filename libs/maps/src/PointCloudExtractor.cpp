@@ -61,6 +61,17 @@ std::vector<PointLabel> labelsOf(const CPointsMap& cloud, const LabelRules& rule
   return std::vector<PointLabel>(cloud.size());
 }
 
+/// The cloud of an observation, read from its file if it lies in one. load() would write into the
+/// observation, which other threads may be reading.
+CPointsMap::ConstPtr cloudOf(const CObservationPointCloud& scan) {
+  if (!scan.isExternallyStored() || (scan.pointcloud && !scan.pointcloud->empty()))
+    return scan.pointcloud;
+  CObservationPointCloud copy = scan;
+  copy.pointcloud.reset();  // would be shared with the original
+  copy.load();
+  return copy.pointcloud;
+}
+
 class PointCloudExtractor : public PointExtractor {
  public:
   bool accepts(const mrpt::obs::CObservation& observation) const override {
@@ -70,9 +81,9 @@ class PointCloudExtractor : public PointExtractor {
   SensorPoints extract(const mrpt::obs::CObservation& observation,
                        const LabelRules& rules) const override {
     const auto& scan = dynamic_cast<const CObservationPointCloud&>(observation);
-    scan.load();  // the cloud may lie in a file of its own
-    if (!scan.pointcloud) throw std::runtime_error("it has no point cloud");
-    const CPointsMap& cloud = *scan.pointcloud;
+    const CPointsMap::ConstPtr loaded = cloudOf(scan);
+    if (!loaded) throw std::runtime_error("it has no point cloud");
+    const CPointsMap& cloud = *loaded;
     const auto& x = cloud.getPointsBufferRef_x();
     const auto& y = cloud.getPointsBufferRef_y();
     const auto& z = cloud.getPointsBufferRef_z();

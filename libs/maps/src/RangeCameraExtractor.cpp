@@ -89,8 +89,9 @@ class RangeCameraExtractor : public PointExtractor {
   SensorPoints extract(const mrpt::obs::CObservation& observation,
                        const LabelRules& rules) const override {
     const auto& scan = dynamic_cast<const CObservation3DRangeScan&>(observation);
-    scan.load();                          // the images may lie in files of their own
-    CObservation3DRangeScan copy = scan;  // unprojecting is not const
+    // Unprojecting is not const, and load() writes although it is: others may read the original.
+    CObservation3DRangeScan copy = scan;
+    copy.load();  // the images may lie in files of their own
     if (copy.hasRangeImage) unproject(copy);
     return pointsOf(copy, rules);
   }

@@ -31,6 +31,19 @@ struct InsertionStatistics {
   ScanReport unused;                               ///< sum over the scans without_points counts
 };
 
+/// What became of the observation that was offered last.
+struct LastInsertion {
+  enum class Outcome {
+    Inserted,
+    NotTaken,  ///< of a kind that carries no points; also before the first insertion
+    Damaged,
+    NoPoints,  ///< taken, but no point of it could be used
+    Disabled,  ///< by enableObservationInsertion = false; nothing is inserted then
+  };
+  Outcome outcome = Outcome::NotTaken;
+  std::string reason;  ///< of Damaged: what is wrong with it, one line
+};
+
 /// A continuous semantic occupancy map (see csom::SemanticMap) that MRPT's applications fill, save
 /// and query like any other metric map. docs/mrpt.md lists the keys of its ini sections.
 ///
@@ -64,6 +77,8 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
     double max_distance = 1.0;  ///< [m]
     double sigma = 0.25;        ///< [m]
 
+    /// Throws OptionError unless all three are finite and greater than 0.
+    void validate() const;
     void loadFromConfigFile(const mrpt::config::CConfigFileBase& source,
                             const std::string& section) override;
     void dumpToTextStream(std::ostream& out) const override;
@@ -99,8 +114,11 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   /// One record for each inserted observation, in order.
   const std::vector<ScanRecord>& scans() const { return scans_; }
   const InsertionStatistics& statistics() const { return statistics_; }
+  LastInsertion lastInsertion() const;
 
   /// The map as it goes to a file, and back. setDocument() keeps the MRPT-side options.
+  /// What document() says of observations and points that are not in the map is counted on from
+  /// what the document said that was set.
   MapDocument document() const;
   void setDocument(MapDocument document);
 
@@ -176,6 +194,7 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   std::shared_ptr<const LabelSet> labels_;  ///< never null; shared between copies
   std::vector<ScanRecord> scans_;
   InsertionStatistics statistics_;
+  LastInsertion last_insertion_;
   std::map<std::string, std::string> meta_;      ///< of the document that was set
   std::unique_ptr<ObservationAdapter> adapter_;  ///< made at the first insertion
   OccupiedPoints occupied_points_;               ///< what getAsSimplePointsMap() hands out

@@ -8,7 +8,6 @@
 #include <mrpt/obs/CObservation.h>
 
 #include <Eigen/Geometry>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -42,13 +41,9 @@ class ObservationAdapter {
 /// pixel: one observation in, one scan out.
 class SelfLabelledAdapter : public ObservationAdapter {
  public:
-  SelfLabelledAdapter();
   std::optional<std::vector<AdaptedScan>> adapt(const mrpt::obs::CObservation& observation,
                                                 const Eigen::Isometry3d& robot_pose,
                                                 const LabelRules& rules) override;
-
- private:
-  std::vector<std::unique_ptr<PointExtractor>> extractors_;
 };
 
 /// The scan of one observation's points: in the frame of the map, axes parallel to it, relative to

@@ -7,7 +7,6 @@
 #include <mrpt/poses/CPose3D.h>
 
 #include <Eigen/Core>
-#include <memory>
 #include <vector>
 
 namespace csom {
@@ -39,8 +38,9 @@ class PointExtractor {
                                const LabelRules& rules) const = 0;
 };
 
-/// Extractors for CObservationVelodyneScan, CObservationPointCloud, CObservation3DRangeScan,
-/// CObservationRotatingScan and CObservation2DRangeScan.
-std::vector<std::unique_ptr<PointExtractor>> makePointExtractors();
+/// The extractor that accepts `observation`; null for all but CObservationVelodyneScan,
+/// CObservationPointCloud, CObservation3DRangeScan, CObservationRotatingScan and
+/// CObservation2DRangeScan. Thread-safe; what it returns lives as long as the program.
+const PointExtractor* findPointExtractor(const mrpt::obs::CObservation& observation);
 
 }  // namespace csom

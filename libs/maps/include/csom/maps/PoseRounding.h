@@ -14,7 +14,8 @@ namespace csom {
 /// One and the same pose reaches a map by different ways: as a rotation matrix, as a quaternion, or
 /// as yaw, pitch and roll of a text file. Each way leaves other last bits, and a point close to the
 /// face of a voxel would fall on either side of it. The lattice is far coarser than those bits and
-/// far finer than any sensor, so that all ways give the same map.
+/// far finer than any sensor, so that all ways give the same map but for about one pose in a
+/// million: two forms that straddle the middle between two lattice points are rounded apart.
 ///
 /// Throws std::runtime_error if a component is not finite or the translation exceeds 2⁴² m.
 Eigen::Isometry3d roundedPose(const mrpt::poses::CPose3D& pose);
