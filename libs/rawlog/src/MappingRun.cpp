@@ -26,6 +26,21 @@ std::string counted(std::size_t count, const std::string& things) {
   return std::to_string(count) + " " + things;
 }
 
+std::string whyNotInserted(const LastInsertion& last) {
+  switch (last.outcome) {
+    case LastInsertion::Outcome::Damaged:
+      return "damaged: " + last.reason;
+    case LastInsertion::Outcome::Disabled:
+      return "the map's enableObservationInsertion is false";
+    case LastInsertion::Outcome::NotTaken:
+      return kOtherKind;
+    case LastInsertion::Outcome::NoPoints:
+    case LastInsertion::Outcome::Inserted:  // not asked for these
+      break;
+  }
+  return "none of its points can be used";
+}
+
 /// Observations that say where the robot is, not what is around it.
 bool tellsPose(const mrpt::obs::CObservation& observation) {
   return dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation) != nullptr ||
@@ -157,7 +172,6 @@ void MappingRun::mapEntry(const RawlogEntry& entry, PoseSource& poses) {
 
 void MappingRun::insert(const mrpt::obs::CObservation& observation, const CPose3D& pose) {
   CSemanticContinuousMap& map = *result_.map;
-  const InsertionStatistics before = map.statistics();
   const std::size_t scans_before = map.scans().size();
   const auto start = std::chrono::steady_clock::now();
   map.insertObservation(observation, pose);
@@ -172,14 +186,7 @@ void MappingRun::insert(const mrpt::obs::CObservation& observation, const CPose3
     up_ += Eigen::Vector3d(rotation(0, 2), rotation(1, 2), rotation(2, 2));
     return;
   }
-  const InsertionStatistics& after = map.statistics();
-  const std::string name = detail::shortName(observation.GetRuntimeClass()->className);
-  if (after.damaged != before.damaged)
-    refuse(observation, "damaged: " + after.why_damaged.at(name));
-  else if (after.without_points > before.without_points)
-    refuse(observation, "none of its points can be used");
-  else
-    refuse(observation, kOtherKind);
+  refuse(observation, whyNotInserted(map.lastInsertion()));
 }
 
 void MappingRun::keep(const mrpt::obs::CObservation::Ptr& observation, const CPose3D& pose) {
