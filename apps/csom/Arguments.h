@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arguments that are lists of numbers.
+// Arguments that are lists of numbers or one of several words.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <string>
 
 namespace csom {
@@ -27,6 +28,22 @@ std::array<double, N> parseNumbers(const std::string& option, const std::string&
     at = result.ptr + (last ? 0 : 1);
   }
   return numbers;
+}
+
+/// Transforms one of the words, in upper or lower case, into its value; the error lists the words.
+template <class Enum>
+CLI::Validator oneOf(const std::map<std::string, Enum>& words) {
+  const auto transform = [words](std::string& text) {
+    const auto found = words.find(CLI::detail::to_lower(text));
+    if (found != words.end()) {
+      text = std::to_string(static_cast<int>(found->second));
+      return std::string();
+    }
+    std::string accepted;
+    for (const auto& [word, value] : words) accepted += (accepted.empty() ? "" : ", ") + word;
+    return "'" + text + "': expected one of " + accepted;
+  };
+  return CLI::Validator(transform, "");
 }
 
 }  // namespace csom

@@ -8,6 +8,8 @@
 #include <memory>
 #include <string>
 
+#include "Arguments.h"
+#include "OutputPaths.h"
 #include "commands.h"
 
 namespace csom {
@@ -22,6 +24,7 @@ struct ExportArguments {
 };
 
 void runExport(const ExportArguments& arguments) {
+  requireSeparateOutputs({arguments.output}, {arguments.file});
   const MapDocument document = loadMap(arguments.file);
   const std::size_t voxels =
       exportMap(document.map, document.labels, arguments.format,
@@ -41,15 +44,18 @@ void addExportCommand(CLI::App& program) {
   command->add_option("MAP", arguments->file, "map file (.csom)")->required();
   command->add_option("--to", arguments->format, "ply, pcd or csv")
       ->required()
-      ->transform(CLI::CheckedTransformer(formats).description(""))
+      ->transform(oneOf(formats))
       ->type_name("FORMAT");
   command->add_option("-o,--output", arguments->output, "file to write, or /dev/stdout")
       ->required();
   command->add_flag("--all", arguments->all, "free voxels as well");
   command->footer(
       "Writes the occupied voxels of a map, one point or line each: the voxel's centre in metres,\n"
-      "its most likely class, that class's probability and variance. csv has the columns\n"
-      "x,y,z,class_id,class_name,probability,variance,evidence.\n\n"
+      "and its most likely class. ply and csv have that class's probability and variance too; "
+      "csv's\n"
+      "columns are x,y,z,class_id,class_name,probability,variance,evidence. pcd has x y z rgb "
+      "label,\n"
+      "in single precision, as PCL reads them.\n\n"
       "Examples:\n"
       "  csom export out/map.csom --to ply -o map.ply      # for MeshLab or CloudCompare\n"
       "  csom export out/map.csom --to pcd -o map.pcd      # for PCL, pcl_viewer\n"

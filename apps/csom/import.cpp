@@ -8,6 +8,8 @@
 #include <map>
 #include <memory>
 
+#include "Arguments.h"
+#include "OutputPaths.h"
 #include "Progress.h"
 #include "commands.h"
 
@@ -25,8 +27,9 @@ struct CommonArguments {
 void addCommonOptions(CLI::App& command, CommonArguments& arguments) {
   command.add_option("-o,--output", arguments.output, "Rawlog to write (gz-compressed)")
       ->required();
-  command.add_option("--scans", arguments.scans, "a:b takes the scans a to b-1, counted from 0");
-  command.add_option("--every", arguments.every, "Takes only every N-th of them");
+  command.add_option("--scans", arguments.scans, "Take the scans a to b-1 of a:b, counted from 0");
+  command.add_option("--every", arguments.every, "Take only every N-th scan")
+      ->check(CLI::Range(1, 1000000000));
 }
 
 ImportProgress shownBy(Progress& progress) {
@@ -59,11 +62,11 @@ void addSemanticKitti(CLI::App& import_command) {
       ->add_option(
           "--world", arguments->request.world,
           "Frame of the map: camera (that of poses.txt, y down, default) | velodyne (z up)")
-      ->transform(CLI::CheckedTransformer(kWorlds))
+      ->transform(oneOf(kWorlds))
       ->option_text("FRAME");
   addCommonOptions(*command, *arguments);
   command->footer(
-      "Example:\n"
+      "Examples:\n"
       "  csom import semantickitti sequences/08 --labels predictions -o k.rawlog\n"
       "  csom import semantickitti sequences/08 --labels labels --world velodyne -o z-up.rawlog");
   command->callback([arguments] {
@@ -118,13 +121,13 @@ void addPcd(CLI::App& import_command) {
   command
       ->add_option("--labels", arguments->request.field,
                    "Field that holds the class: label | intensity | auto (label if there)")
-      ->transform(CLI::CheckedTransformer(kFields))
+      ->transform(oneOf(kFields))
       ->option_text("FIELD");
   command
       ->add_option("--irregular-rows", arguments->request.row_policy,
                    "Rows with a wrong number of columns, always reported: ignore-extra columns and "
                    "skip shorter rows (default) | skip the row | refuse the file")
-      ->transform(CLI::CheckedTransformer(kPolicies))
+      ->transform(oneOf(kPolicies))
       ->option_text("POLICY");
   addCommonOptions(*command, *arguments);
   command->footer(
@@ -135,6 +138,7 @@ void addPcd(CLI::App& import_command) {
   command->callback([arguments] {
     arguments->request.selection = arguments->selection();
     Progress progress("importing");
+    requireSeparateOutputs({arguments->output}, arguments->request.files);
     printSummary(importPcd(arguments->request, arguments->output, shownBy(progress)),
                  arguments->output);
   });

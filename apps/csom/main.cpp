@@ -5,8 +5,32 @@
 
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include "commands.h"
+
+namespace {
+
+/// The first word that should be a command and is none, with those that there are; empty if all is
+/// well. CLI11 would only say that a sub-command is missing.
+std::string unknownCommand(const CLI::App& program, int argc, char** argv) {
+  const CLI::App* app = &program;
+  for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+    const auto commands = app->get_subcommands([](const CLI::App*) { return true; });
+    if (commands.empty()) return "";
+    std::string names;
+    const CLI::App* chosen = nullptr;
+    for (const CLI::App* command : commands) {
+      names += (names.empty() ? "" : ", ") + command->get_name();
+      if (command->get_name() == argv[i]) chosen = command;
+    }
+    if (chosen == nullptr) return "no command '" + std::string(argv[i]) + "'; there are " + names;
+    app = chosen;
+  }
+  return "";
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   constexpr int kFailed = 1;
@@ -15,8 +39,9 @@ int main(int argc, char** argv) {
   CLI::App program{"Continuous semantic occupancy maps from MRPT rawlogs."};
   program.set_version_flag("--version", "csom " CSOM_VERSION);
   program.require_subcommand(1);
-  program.footer("'csom COMMAND --help' shows the options and examples of a command.\n"
-                 "Exit codes: 0 done, 1 failed, 2 wrong usage or configuration.");
+  program.footer(
+      "'csom COMMAND --help' shows the options and examples of a command.\n"
+      "Exit codes: 0 done, 1 failed, 2 wrong usage or configuration.");
   csom::addMapCommand(program);
   csom::addInfoCommand(program);
   csom::addQueryCommand(program);
@@ -26,8 +51,14 @@ int main(int argc, char** argv) {
   csom::addImportCommand(program);
   csom::addSimulateCommand(program);
 
+  if (const std::string unknown = unknownCommand(program, argc, argv); !unknown.empty()) {
+    std::fprintf(stderr, "csom: %s\n", unknown.c_str());
+    return kUsage;
+  }
   try {
     program.parse(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw csom::FileError("standard output", "cannot be written");
     return 0;
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : kUsage;

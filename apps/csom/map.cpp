@@ -4,6 +4,7 @@
 #include <csom/io/MapFile.h>
 #include <csom/io/OutputFile.h>
 #include <csom/rawlog/MappingRun.h>
+#include <csom/rawlog/RawlogWriter.h>
 #include <csom/report/MapFigures.h>
 #include <csom/report/Report.h>
 #include <csom/report/RunRecord.h>
@@ -15,6 +16,7 @@
 
 #include "CommandLine.h"
 #include "OutputFolder.h"
+#include "OutputPaths.h"
 #include "Progress.h"
 #include "commands.h"
 
@@ -117,7 +119,7 @@ void printSummary(const RunRecord& record, const MapFigures& figures, const Outp
   for (const RefusedObservations& refused : record.refused)
     std::printf("unused    %s %s: %s\n", groupedDigits(refused.count).c_str(),
                 refused.observation_class.c_str(), refused.reason.c_str());
-  std::printf("map       %s voxels known, %s occupied, %.1f MB: %s\n",
+  std::printf("map       %s voxels known, %s occupied, %.1f MB in memory: %s\n",
               groupedDigits(figures.known_voxels).c_str(),
               groupedDigits(figures.occupied_voxels).c_str(),
               static_cast<double>(figures.memory_bytes) / 1e6, folder.file("map.csom").c_str());
@@ -126,14 +128,24 @@ void printSummary(const RunRecord& record, const MapFigures& figures, const Outp
 }
 
 void writeSimpleMap(const mrpt::maps::CSimpleMap& key_frames, const std::string& file) {
-  OutputFile output(file);
-  if (!key_frames.saveToFile(output.path())) throw FileError(file, "cannot be written");
-  output.commit();
+  RawlogWriter writer(file);
+  writer.write(key_frames);
+  writer.commit();
 }
 
 void runMap(const MapArguments& arguments) {
+  if (arguments.output.empty()) throw ConfigError("--output is empty: name a folder");
   const MappingRequest request = requestOf(arguments);
+  std::vector<std::string> inputs = arguments.logs;
+  inputs.push_back(arguments.config);
+  if (request.poses && request.poses->kind != PoseChoice::Kind::RobotPose)
+    inputs.push_back(request.poses->argument);
   const OutputFolder folder(arguments.output);
+  std::vector<std::string> outputs;
+  for (const char* name : {"map.csom", "run.json", "report.html", "top.png"})
+    outputs.push_back(folder.file(name));
+  if (!arguments.simplemap.empty()) outputs.push_back(arguments.simplemap);
+  requireSeparateOutputs(outputs, inputs);
   if (!arguments.simplemap.empty()) OutputFile(arguments.simplemap);  // can it be written?
 
   const auto start = std::chrono::steady_clock::now();

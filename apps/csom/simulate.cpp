@@ -12,7 +12,9 @@
 #include <optional>
 #include <stdexcept>
 
+#include "Arguments.h"
 #include "Output.h"
+#include "OutputPaths.h"
 #include "Progress.h"
 #include "commands.h"
 
@@ -99,6 +101,10 @@ void printAsJson(const SimulateArguments& arguments, std::uint64_t seed,
 }
 
 void simulate(const SimulateArguments& arguments) {
+  std::vector<std::string> outputs{arguments.rawlog};
+  for (const std::string& optional : {arguments.truth, arguments.options.trajectory_file})
+    if (!optional.empty()) outputs.push_back(optional);
+  requireSeparateOutputs(outputs, {arguments.world});
   const Scenario scenario = load(arguments);
   const VoxelBox truth_box = truthBox(scenario);
   SimulationSummary summary;
@@ -122,27 +128,30 @@ void simulate(const SimulateArguments& arguments) {
 void addSimulateCommand(CLI::App& program) {
   auto arguments = std::make_shared<SimulateArguments>();
   CLI::App* command = program.add_subcommand(
-      "simulate", "Drives a simulated robot through a world and records a rawlog");
+      "simulate", "Drive a simulated robot through a world and record a rawlog");
   command->add_option("WORLD", arguments->world, "World file (see config/worlds)")->required();
   command->add_option("-o,--output", arguments->rawlog, "Rawlog to write (gz-compressed)")
       ->required();
-  command->add_option("--truth", arguments->truth, "Map file (.csom) for the exact voxel truth");
+  CLI::Option* truth = command->add_option("--truth", arguments->truth,
+                                           "Map file (.csom) for the exact voxel truth");
   command
       ->add_option("--truth-resolution", arguments->truth_resolution,
                    "Voxel edge of the truth in metres instead of the world file's")
-      ->check(CLI::Range(0.001, 1000.0));
+      ->check(CLI::Range(0.001, 1000.0))
+      ->needs(truth);
   command->add_option("--trajectory", arguments->options.trajectory_file,
                       "File for the true poses, in TUM format");
-  command->add_option("--seed", arguments->seed, "Seed of all noise instead of the world file's");
+  command->add_option("--seed", arguments->seed, "Seed of all noise instead of the world file's")
+      ->check(CLI::NonNegativeNumber);
   const std::map<std::string, RawlogFormat> formats{{"sensory-frames", RawlogFormat::SensoryFrames},
                                                     {"observations", RawlogFormat::Observations}};
   command
       ->add_option("--format", arguments->options.format,
                    "sensory-frames (default): actions and CSensoryFrames, what rbpf-slam needs; "
                    "observations: one observation after the other")
-      ->transform(CLI::CheckedTransformer(formats).description(""))
+      ->transform(oneOf(formats))
       ->type_name("FORMAT");
-  command->add_flag("--json", arguments->json, "Prints the figures as JSON");
+  command->add_flag("--json", arguments->json, "Print the figures as JSON");
   command->footer(
       "The same world file and seed give the same bytes.\n"
       "Examples:\n"

@@ -161,6 +161,8 @@ const char* inWords(RejectReason reason) {
       return "had class scores that do not sum to 1";
     case RejectReason::OutsideIndexRange:
       return "were too far from the map’s origin to be stored";
+    case RejectReason::BeamTooLong:
+      return "so far away that free space along the beam would take more than 8192 steps";
   }
   return "";
 }
