@@ -149,6 +149,57 @@ TEST(ImportSemanticKitti, TakesTimesAndPosesOfTheNumberOfAFile) {
   EXPECT_NEAR(mrpt::Clock::toDouble(pose[0]->timestamp), 12.5, 1e-6);
 }
 
+std::vector<double> importedTimes(const TempFolder& folder) {
+  SemanticKittiImport request;
+  request.folder = folder.path();
+  importSemanticKitti(request, folder / "k.rawlog");
+  std::vector<double> times;
+  for (const auto& cloud :
+       only<mrpt::obs::CObservationPointCloud>(observationsOf(folder / "k.rawlog")))
+    times.push_back(mrpt::Clock::toDouble(cloud->timestamp));
+  return times;
+}
+
+TEST(ImportSemanticKitti, ReadsTimesAsTheDataSetWritesThem) {
+  const TempFolder folder;
+  writeSequence(folder);
+  using testing::DoubleNear;
+  for (const char* end : {"\n", "\r\n", "\n\n", "\n \r\n\n", ""}) {
+    writeBytes(folder / "times.txt", std::string("5.000000e-01\n1.037380e+02") + end);
+    EXPECT_THAT(importedTimes(folder),
+                testing::ElementsAre(DoubleNear(0.5, 1e-6), DoubleNear(103.738, 1e-6)));
+  }
+}
+
+TEST(ImportSemanticKitti, RefusesTimesThatAreNone) {
+  const TempFolder folder;
+  writeSequence(folder);
+  for (const char* bad :
+       {"1.5abc", "nan", "inf", "1,5", "1 2", "noon", "2011-09-26", "2011-02-31 10:00:00",
+        "2011-13-01 10:00:00", "2011-09-26 24:00:00", "2011-09-26 10:00", "-1-09-26 10:00:00",
+        "2011-09-26 10:00:00.5x", "2011-09-26 10:00:00 1"}) {
+    writeBytes(folder / "times.txt", "0.5\n" + std::string(bad) + "\n");
+    EXPECT_THAT(fileErrorOf([&] { importedTimes(folder); }),
+                HasSubstr("times.txt: line 2: '" + std::string(bad) + "' is no time"));
+  }
+  writeBytes(folder / "times.txt", "0.5\n\x1b[2J\n");
+  EXPECT_THAT(fileErrorOf([&] { importedTimes(folder); }), HasSubstr("line 2: '?[2J'"));
+}
+
+TEST(ImportSemanticKitti, DoesNotMixTimesOfTheFileWithItsOwn) {
+  const TempFolder folder;
+  writeSequence(folder);
+  writeBytes(folder / "times.txt", "1000.0\n");
+  EXPECT_THAT(
+      fileErrorOf([&] { importedTimes(folder); }),
+      testing::AllOf(HasSubstr("times.txt: has 1 times, so none for "), HasSubstr("000001.bin")));
+  writeBytes(folder / "times.txt", "");
+  EXPECT_THAT(fileErrorOf([&] { importedTimes(folder); }), HasSubstr("times.txt: has 0 times"));
+  fs::remove(folder / "times.txt");
+  fs::create_directory(folder / "times.txt");
+  EXPECT_THAT(fileErrorOf([&] { importedTimes(folder); }), HasSubstr("times.txt: is a folder"));
+}
+
 TEST(ImportSemanticKitti, LeavesNothingBehindWhenItFails) {
   const TempFolder folder;
   writeSequence(folder);
@@ -223,6 +274,35 @@ TEST(ImportPcd, JoinsFilesOfOneSensorPosition) {
   request.files.push_back(folder / "3.pcd");
   EXPECT_THROW(importPcd(request, folder / "b.rawlog"), ConfigError);
   EXPECT_FALSE(fs::exists(folder / "b.rawlog"));
+}
+
+TEST(ImportPcd, JoinsFilesOfWhichOneIsEmpty) {
+  const TempFolder folder;
+  writeBytes(folder / "1.pcd", pcd("x y z label", "0 0 0", "1 2 3 4\n"));
+  writeBytes(folder / "2.pcd", pcd("x y z label", "0 0 0", ""));
+  PcdImport request;
+  request.single_scan = true;
+  for (const auto field : {PcdField::Auto, PcdField::Label}) {
+    request.field = field;
+    for (const auto& names : {std::pair("1.pcd", "2.pcd"), std::pair("2.pcd", "1.pcd")}) {
+      request.files = {folder / names.first, folder / names.second};
+      EXPECT_EQ(importPcd(request, folder / "a.rawlog").points, 1u);
+    }
+  }
+}
+
+TEST(ImportPcd, DoesNotJoinLabelsWithIntensities) {
+  const TempFolder folder;
+  writeBytes(folder / "1.pcd", pcd("x y z label", "0 0 0", "1 2 3 4\n"));
+  writeBytes(folder / "2.pcd", pcd("x y z intensity", "0 0 0", "1 2 3 77\n"));
+  writeBytes(folder / "3.pcd", pcd("x y z", "0 0 0", "1 2 3\n"));
+  PcdImport request;
+  request.single_scan = true;
+  for (const char* other : {"2.pcd", "3.pcd"}) {
+    request.files = {folder / "1.pcd", folder / other};
+    EXPECT_THAT(fileErrorOf([&] { importPcd(request, folder / "a.rawlog"); }),
+                testing::AllOf(HasSubstr(other), HasSubstr("1.pcd has the field 'label'")));
+  }
 }
 
 TEST(ImportPcd, ChoosesTheFieldThatCarriesLabels) {
@@ -338,6 +418,34 @@ TEST(ImportKittiRaw, LeavesNothingBehindWhenItFails) {
   request.folder = folder.path();
   EXPECT_THROW(importKittiRaw(request, folder / "out/r.rawlog"), FileError);
   EXPECT_TRUE(fs::is_empty(folder / "out"));
+}
+
+TEST(ImportKittiRaw, LeavesNoImagesWithoutTheLog) {
+  const TempFolder folder;
+  writeDrive(folder);
+  fs::create_directories(folder / "out");
+  KittiRawImport request;
+  request.folder = folder.path();
+  // A folder that takes the log's place while it is written: the log cannot be committed.
+  const auto occupy = [&](std::size_t, std::size_t) {
+    fs::create_directories(folder / "out/r.rawlog/occupied");
+  };
+  EXPECT_THROW(importKittiRaw(request, folder / "out/r.rawlog", occupy), FileError);
+  fs::remove_all(folder / "out/r.rawlog");
+  EXPECT_TRUE(fs::is_empty(folder / "out"));
+}
+
+TEST(ImportKittiRaw, DoesNotTakeOverImagesOfAKilledRun) {
+  const TempFolder folder;
+  writeDrive(folder);
+  fs::create_directories(folder / "r_Images.tmp");
+  writeBytes(folder / "r_Images.tmp/stale.png", "stale");
+  KittiRawImport request;
+  request.folder = folder.path();
+  importKittiRaw(request, folder / "r.rawlog");
+  EXPECT_FALSE(fs::exists(folder / "r_Images.tmp"));
+  EXPECT_TRUE(fs::exists(folder / "r_Images/image_02_0000000000.png"));
+  EXPECT_FALSE(fs::exists(folder / "r_Images/stale.png"));
 }
 
 }  // namespace

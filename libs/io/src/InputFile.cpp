@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "InputFile.h"
 
 #include <csom/core/Error.h>
+#include <csom/io/InputFile.h>
 
 #include <cerrno>
 #include <cstring>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csom/core/Error.h>
+#include <csom/io/InputFile.h>
 #include <csom/io/KittiReader.h>
+#include <csom/io/TextParser.h>
 
 #include <cmath>
 #include <cstring>
 #include <map>
 #include <stdexcept>
 
-#include "InputFile.h"
 #include "RigidTransform.h"
-#include "TextParser.h"
 
 namespace csom {
 

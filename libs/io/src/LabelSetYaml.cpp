@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Label sets as YAML text: strict reading with the line of every error, and writing.
 #include <csom/core/Error.h>
+#include <csom/io/InputFile.h>
 #include <csom/io/LabelSet.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <charconv>
 #include <set>
-
-#include "InputFile.h"
 
 namespace csom {
 

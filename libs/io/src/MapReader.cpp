@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // loadMap(): a map file back into a document, believing nothing unchecked.
 #include <csom/core/Error.h>
+#include <csom/io/InputFile.h>
 #include <csom/io/MapFile.h>
 
 #include <set>
@@ -8,7 +9,6 @@
 #include <utility>
 
 #include "ChunkCodec.h"
-#include "InputFile.h"
 #include "MapSchema.h"
 #include "Sqlite.h"
 

@@ -2,11 +2,10 @@
 #include "PcdHeader.h"
 
 #include <csom/core/Error.h>
+#include <csom/io/TextParser.h>
 
 #include <cmath>
 #include <limits>
-
-#include "TextParser.h"
 
 namespace csom::detail {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csom/core/Error.h>
+#include <csom/io/InputFile.h>
 #include <csom/io/PcdReader.h>
+#include <csom/io/TextParser.h>
 
 #include <cmath>
 #include <cstring>
 
-#include "InputFile.h"
 #include "PcdHeader.h"
-#include "TextParser.h"
 
 namespace csom {
 
@@ -63,7 +63,10 @@ class CloudBuilder {
       : cloud_(cloud),
         xyz_{header.find("x"), header.find("y"), header.find("z")},
         label_(header.find("label")),
-        intensity_(header.find("intensity")) {}
+        intensity_(header.find("intensity")) {
+    cloud_.has_labels = label_ != nullptr;
+    cloud_.has_intensities = intensity_ != nullptr;
+  }
 
   /// `points` is known to be possible for the size of the file.
   void reserve(std::size_t points) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "TextParser.h"
+
+#include <csom/io/TextParser.h>
 
 #include <algorithm>
 
@@ -25,14 +26,31 @@ void splitColumns(std::string_view line, std::vector<std::string_view>& columns)
   }
 }
 
+std::string printable(std::string_view text) {
+  std::string result;
+  bool after_c2 = false;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    // U+0080 to U+009F, which UTF-8 writes with a leading C2, steer terminals as well.
+    const bool second_half_of_control = after_c2 && byte >= 0x80 && byte < 0xa0;
+    if (second_half_of_control)
+      result.back() = '?';
+    else
+      result += byte < 0x20 || byte == 0x7f ? '?' : c;
+    after_c2 = byte == 0xc2;
+  }
+  return result;
+}
+
 std::string quoted(std::string_view text) {
   constexpr std::size_t max_length = 60;
-  std::string result = "'";
-  for (const char c : text.substr(0, max_length)) {
-    const bool printable = static_cast<unsigned char>(c) >= 0x20 && c != 0x7f;
-    result += printable ? c : '?';
-  }
-  return result + (text.size() > max_length ? "…'" : "'");
+  return "'" + printable(text.substr(0, max_length)) + (text.size() > max_length ? "…'" : "'");
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
 }
 
 }  // namespace csom::detail

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csom/core/Error.h>
+#include <csom/io/InputFile.h>
+#include <csom/io/TextParser.h>
 #include <csom/io/TrajectoryFile.h>
 
 #include <array>
 #include <cmath>
 
-#include "InputFile.h"
 #include "RigidTransform.h"
-#include "TextParser.h"
 
 namespace csom {
 

@@ -3,15 +3,16 @@
 #include "DataSetFiles.h"
 
 #include <csom/core/Error.h>
+#include <csom/io/InputFile.h>
+#include <csom/io/TextParser.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
-#include <iomanip>
-#include <sstream>
+#include <string_view>
 
 namespace csom::detail {
 
@@ -49,35 +50,76 @@ std::optional<std::size_t> numberOfFile(const std::string& file) {
 
 namespace {
 
-/// NaN if the line is no time.
-double timeOf(const std::string& line) {
-  std::istringstream text(line);
-  double seconds = std::nan("");
-  if (line.find('-') == std::string::npos) {
-    text >> seconds;
-    return text.fail() ? std::nan("") : seconds;
+/// The three numbers of "2011-09-26" or "13:02:25.96".
+bool parseParts(std::string_view text, char separator, std::array<double, 3>& parts) {
+  for (double& part : parts) {
+    const std::size_t end = std::min(text.find(separator), text.size());
+    const bool is_last = &part == &parts.back();
+    if (is_last != (end == text.size())) return false;
+    if (!parseNumber(text.substr(0, end), part) || !(part >= 0 && part < 10000)) return false;
+    text.remove_prefix(is_last ? end : end + 1);
   }
-  std::tm date{};
-  text >> std::get_time(&date, "%Y-%m-%d %H:%M:%S");
-  if (text.fail()) return std::nan("");
-  double fraction = 0;
-  if (text.peek() == '.') text >> fraction;
-  return static_cast<double>(timegm(&date)) + fraction;
+  return true;
+}
+
+/// Seconds since 1970 of a date and a time of day, UTC.
+std::optional<double> secondsOfDate(std::string_view day, std::string_view time_of_day) {
+  std::array<double, 3> date{};
+  std::array<double, 3> time{};
+  if (!parseParts(day, '-', date) || !parseParts(time_of_day, ':', time)) return std::nullopt;
+  for (const double whole : {date[0], date[1], date[2], time[0], time[1]}) {
+    if (whole != std::floor(whole)) return std::nullopt;
+  }
+  if (time[0] > 23 || time[1] > 59 || time[2] >= 61) return std::nullopt;
+  std::tm calendar{};
+  calendar.tm_year = static_cast<int>(date[0]) - 1900;
+  calendar.tm_mon = static_cast<int>(date[1]) - 1;
+  calendar.tm_mday = static_cast<int>(date[2]);
+  const std::tm given = calendar;
+  const auto midnight = static_cast<double>(timegm(&calendar));
+  // timegm() makes 3 March of 31 February.
+  if (calendar.tm_mon != given.tm_mon || calendar.tm_mday != given.tm_mday) return std::nullopt;
+  return midnight + 3600 * time[0] + 60 * time[1] + time[2];
+}
+
+std::optional<double> timeOf(const std::vector<std::string_view>& columns) {
+  double seconds = 0;
+  if (columns.size() == 1 && parseNumber(columns[0], seconds) && std::isfinite(seconds))
+    return seconds;
+  if (columns.size() == 2) return secondsOfDate(columns[0], columns[1]);
+  return std::nullopt;
+}
+
+std::vector<double> readTimes(const std::string& file) {
+  std::vector<double> times;
+  const std::string text = readFile(file);
+  LineReader lines(text);
+  std::string_view line;
+  std::vector<std::string_view> columns;
+  while (lines.next(line)) {
+    splitColumns(line, columns);
+    if (columns.empty()) continue;
+    const auto time = timeOf(columns);
+    if (!time)
+      throw FileError(
+          file, "line " + std::to_string(lines.lineNumber()) + ": " + quoted(line) + " is no time");
+    times.push_back(*time);
+  }
+  return times;
 }
 
 }  // namespace
 
-std::vector<double> readTimes(const std::string& file) {
-  std::vector<double> times;
-  std::ifstream stream(file);
-  std::string line;
-  while (std::getline(stream, line)) {
-    times.push_back(timeOf(line));
-    if (!std::isfinite(times.back()))
-      throw FileError(file, "line " + std::to_string(times.size()) + ": '" + line.substr(0, 40) +
-                                "' is no time");
-  }
-  return times;
+ScanTimes::ScanTimes(const std::string& file) : file_(file) {
+  std::error_code error;
+  if (fs::symlink_status(file, error).type() != fs::file_type::not_found) times_ = readTimes(file);
+}
+
+double ScanTimes::of(std::size_t number, const std::string& scan) const {
+  if (!times_) return static_cast<double>(number) * kScanPeriod;
+  if (number >= times_->size())
+    throw FileError(file_, "has " + std::to_string(times_->size()) + " times, so none for " + scan);
+  return (*times_)[number];
 }
 
 }  // namespace csom::detail

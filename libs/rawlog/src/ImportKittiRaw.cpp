@@ -55,7 +55,8 @@ mrpt::img::TCamera pinhole(const KittiCamera& camera) {
   return parameters;
 }
 
-/// RAWLOG_Images, filled beside its place and moved there at the end.
+/// RAWLOG_Images, filled beside its place, moved there when complete, and gone again if the log
+/// then cannot be put beside it.
 class ImageFolder {
  public:
   explicit ImageFolder(const std::string& rawlog) {
@@ -66,10 +67,12 @@ class ImageFolder {
     if (fs::exists(target_))
       throw FileError(target_.string(), "exists already; remove it, or choose another rawlog name");
     unfinished_ = target_.string() + ".tmp";
+    removeUnfinished();  // what a killed run left must not be moved along
   }
   ~ImageFolder() {
     std::error_code ignored;
-    if (!unfinished_.empty()) fs::remove_all(unfinished_, ignored);
+    fs::remove_all(unfinished_, ignored);
+    if (moved_ && !kept_) fs::remove_all(target_, ignored);
   }
   ImageFolder(const ImageFolder&) = delete;
   ImageFolder& operator=(const ImageFolder&) = delete;
@@ -80,16 +83,27 @@ class ImageFolder {
     fs::copy_file(image, unfinished_ / name, fs::copy_options::overwrite_existing, error);
     if (error) throw FileError((unfinished_ / name).string(), error.message());
   }
-  void commit() {
+  void moveToPlace() {
+    if (!fs::exists(unfinished_)) return;
     std::error_code error;
-    if (fs::exists(unfinished_)) fs::rename(unfinished_, target_, error);
+    fs::rename(unfinished_, target_, error);
     if (error) throw FileError(target_.string(), error.message());
-    unfinished_.clear();
+    moved_ = true;
   }
+  /// To be called once the log is in its place.
+  void keep() { kept_ = true; }
 
  private:
+  void removeUnfinished() const {
+    std::error_code error;
+    fs::remove_all(unfinished_, error);
+    if (error) throw FileError(unfinished_.string(), "cannot be removed: " + error.message());
+  }
+
   fs::path target_;
   fs::path unfinished_;
+  bool moved_ = false;
+  bool kept_ = false;
 };
 
 class Drive {
@@ -97,7 +111,7 @@ class Drive {
   Drive(const KittiRawImport& request, ImageFolder* image_folder, ImportSummary& summary)
       : velodyne_(fs::path(request.folder) / "velodyne_points"),
         files_(detail::filesIn((velodyne_ / "data").string(), ".bin")),
-        times_(detail::readTimes((velodyne_ / "timestamps.txt").string())),
+        times_((velodyne_ / "timestamps.txt").string()),
         cameras_(camerasOf(request)),
         image_folder_(image_folder),
         summary_(summary) {}
@@ -107,8 +121,7 @@ class Drive {
   void write(std::size_t position, RawlogWriter& log) {
     const std::string& file = files_[position];
     const std::size_t number = detail::numberOfFile(file).value_or(position);
-    const double time =
-        number < times_.size() ? times_[number] : static_cast<double>(number) * detail::kScanPeriod;
+    const double time = times_.of(number, file);
     for (const Camera& camera : cameras_) {
       const fs::path image = camera.images / (fs::path(file).stem().string() + ".png");
       if (fs::exists(image)) {
@@ -143,7 +156,7 @@ class Drive {
 
   fs::path velodyne_;
   std::vector<std::string> files_;
-  std::vector<double> times_;
+  detail::ScanTimes times_;
   std::vector<Camera> cameras_;
   ImageFolder* image_folder_;
   ImportSummary& summary_;
@@ -163,8 +176,9 @@ ImportSummary importKittiRaw(const KittiRawImport& request, const std::string& r
     drive.write(position, log);
     if (progress) progress(summary.scans, chosen.size());
   }
-  if (images) images->commit();
+  if (images) images->moveToPlace();
   log.commit();
+  if (images) images->keep();
   return summary;
 }
 

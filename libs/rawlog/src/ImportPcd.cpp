@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <string_view>
 
 #include "DataSetFiles.h"
 #include "LoggedScan.h"
@@ -33,16 +34,16 @@ struct Cloud {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3f> points;
   std::vector<float> carried;
+  const char* field = nullptr;  ///< name of the field that they come from; null for none
 };
 
-std::vector<float> carriedBy(const PcdCloud& cloud, PcdField field, const std::string& file) {
-  if (field == PcdField::Label && cloud.labels.empty())
-    throw FileError(file, "has no field 'label'");
-  if (field == PcdField::Intensity && cloud.intensities.empty())
+/// Name of the field that is carried along, null for none.
+const char* fieldOf(const PcdCloud& cloud, PcdField wanted, const std::string& file) {
+  if (wanted == PcdField::Label && !cloud.has_labels) throw FileError(file, "has no field 'label'");
+  if (wanted == PcdField::Intensity && !cloud.has_intensities)
     throw FileError(file, "has no field 'intensity'");
-  if (field != PcdField::Intensity && !cloud.labels.empty())
-    return detail::labelsAsIntensities(cloud.labels);
-  return cloud.intensities;
+  if (wanted != PcdField::Intensity && cloud.has_labels) return "label";
+  return cloud.has_intensities ? "intensity" : nullptr;
 }
 
 class PcdFiles {
@@ -58,7 +59,9 @@ class PcdFiles {
     cloud.points.reserve(raw.points.size());
     for (const Eigen::Vector3d& point : raw.points)
       cloud.points.push_back((point - cloud.origin).cast<float>());
-    cloud.carried = carriedBy(raw, request_.field, file);
+    cloud.field = fieldOf(raw, request_.field, file);
+    const bool carries_labels = cloud.field != nullptr && cloud.field == std::string_view("label");
+    cloud.carried = carries_labels ? detail::labelsAsIntensities(raw.labels) : raw.intensities;
     return cloud;
   }
 
@@ -105,12 +108,18 @@ class PcdFiles {
   ImportSummary& summary_;
 };
 
+std::string fieldName(const Cloud& cloud) {
+  return cloud.field == nullptr ? "neither labels nor intensities"
+                                : "the field '" + std::string(cloud.field) + "'";
+}
+
 void append(Cloud& all, const Cloud& part, const std::string& file, const std::string& first) {
   if (part.origin != all.origin)
     throw ConfigError(file + ": its VIEWPOINT is not that of " + first +
                       ", so --single-scan cannot take both; import one scan a file");
-  if (part.carried.empty() != all.carried.empty())
-    throw FileError(file, "differs from " + first + " in having a field 'label' or 'intensity'");
+  if (fieldName(part) != fieldName(all))
+    throw FileError(file, "has " + fieldName(part) + ", but " + first + " has " + fieldName(all) +
+                              ", so --single-scan cannot take both");
   all.points.insert(all.points.end(), part.points.begin(), part.points.end());
   all.carried.insert(all.carried.end(), part.carried.begin(), part.carried.end());
 }

@@ -25,7 +25,7 @@ class Sequence {
         poses_file_((folder_ / "poses.txt").string()),
         camera_poses_(readKittiPoses(poses_file_)),
         camera_from_velodyne_(readKittiOdometryCalibration((folder_ / "calib.txt").string())),
-        times_(detail::readTimes((folder_ / "times.txt").string())) {
+        times_((folder_ / "times.txt").string()) {
     if (request.world == SemanticKittiWorld::Velodyne)
       world_from_camera_world_ = camera_from_velodyne_.inverse();
     if (request.labels.empty()) return;
@@ -40,7 +40,7 @@ class Sequence {
   std::size_t write(std::size_t position, RawlogWriter& log) const {
     const std::string& file = files_[position];
     const std::size_t number = detail::numberOfFile(file).value_or(position);
-    const double time = timeOf(number);
+    const double time = times_.of(number, file);
     const KittiScan scan = readKittiScan(file);
     log.write(detail::poseObservation(velodynePose(file, number), time));
     log.write(detail::cloudObservation(scan.points, carried(file, scan), time, "velodyne"));
@@ -61,18 +61,13 @@ class Sequence {
     return detail::labelsAsIntensities(readKittiLabels(labels.string(), scan.points.size()));
   }
 
-  double timeOf(std::size_t number) const {
-    return number < times_.size() ? times_[number]
-                                  : static_cast<double>(number) * detail::kScanPeriod;
-  }
-
   fs::path folder_;
   std::vector<std::string> files_;
   std::string poses_file_;
   std::vector<Eigen::Isometry3d> camera_poses_;
   Eigen::Isometry3d camera_from_velodyne_;
   Eigen::Isometry3d world_from_camera_world_ = Eigen::Isometry3d::Identity();
-  std::vector<double> times_;
+  detail::ScanTimes times_;
   fs::path labels_;
 };
 

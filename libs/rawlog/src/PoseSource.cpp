@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the robot was when an observation was taken.
 #include <csom/core/Error.h>
+#include <csom/io/TextParser.h>
 #include <csom/io/TrajectoryFile.h>
 #include <csom/rawlog/PoseSource.h>
 #include <mrpt/obs/CObservationRobotPose.h>
@@ -31,16 +32,16 @@ constexpr KindName kKinds[] = {{Kind::Odometry, "odometry", false},
 const std::pair<const std::string, PoseTrack>& pickTrack(
     const std::map<std::string, PoseTrack>& tracks, const std::string& label,
     const std::string& file) {
-  std::string labels;
+  std::vector<std::string> labels;
   for (const auto& track : tracks) {
     if (track.first == label) return track;
-    labels += (labels.empty() ? "'" : ", '") + track.first + "'";
+    labels.push_back(detail::quoted(track.first));
   }
   if (!label.empty())
-    throw ConfigError(file + ": no robot poses with the label '" + label + "'; there are " +
-                      labels);
+    throw ConfigError(file + ": no robot poses with the label " + detail::quoted(label) +
+                      "; there are " + detail::joined(labels));
   if (tracks.size() > 1)
-    throw ConfigError(file + ": robot poses with several labels (" + labels +
+    throw ConfigError(file + ": robot poses with several labels (" + detail::joined(labels) +
                       "); choose one with --poses robot-pose:LABEL");
   return *tracks.begin();
 }

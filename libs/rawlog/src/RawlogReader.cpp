@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads a rawlog or a simplemap one entry at a time.
 #include <csom/core/Error.h>
+#include <csom/io/TextParser.h>
 #include <csom/rawlog/RawlogReader.h>
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/io/lazy_load_path.h>
@@ -29,6 +30,7 @@ namespace {
 
 using mrpt::rtti::TRuntimeClassId;
 
+constexpr char kTooLarge[] = "it claims to be larger than the file can hold";
 constexpr char kNoRawlog[] = "is neither a rawlog nor a simplemap";
 
 /// Memory that one entry may take: far more than any that gzip or JPEG made small.
@@ -196,11 +198,13 @@ void RawlogReader::readStart() {
   }
   if (!isLogClass(*header.class_id))
     throw FileError(file_, std::string(kNoRawlog) + ": it starts with a " +
-                               detail::shortName(header.class_name));
+                               detail::printable(detail::shortName(header.class_name)));
   try {
     RawlogEntry entry;
     accept(archive_->readBody(), entry);
     first_ = std::move(entry);
+  } catch (const std::bad_alloc&) {
+    stopAt(kTooLarge);
   } catch (const std::exception& error) {
     stopAt(detail::oneLine(error));
   }
@@ -221,7 +225,7 @@ std::optional<RawlogEntry> RawlogReader::next() {
         return std::nullopt;
       }
     } catch (const std::bad_alloc&) {
-      stopAt("it claims to be larger than the file can hold");
+      stopAt(kTooLarge);
       return std::nullopt;
     } catch (const std::exception& error) {
       stopAt(detail::oneLine(error));
@@ -282,7 +286,7 @@ std::string RawlogReader::crashLine() const {
 void RawlogReader::stopAt(const std::string& reason) {
   stopped_ = true;
   end_.complete = false;
-  const std::string class_name = detail::shortName(archive_->currentClass());
+  const std::string class_name = detail::printable(detail::shortName(archive_->currentClass()));
   const std::string where =
       "entry " + std::to_string(end_.entries) + (class_name.empty() ? "" : " (" + class_name + ")");
   end_.reason =

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A first reading of a log: how long it is and which poses it holds.
+#include <csom/io/TextParser.h>
 #include <csom/rawlog/RawlogSurvey.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
@@ -45,8 +46,9 @@ void surveyFiles(RawlogSurvey& survey, std::size_t entry,
     std::error_code error;
     if (std::filesystem::is_regular_file(file, error)) continue;
     if (survey.missing_files++ == 0)
-      survey.first_missing =
-          "entry " + std::to_string(entry) + " ('" + observation.sensorLabel + "'): " + file;
+      survey.first_missing = "entry " + std::to_string(entry) + " (" +
+                             detail::quoted(observation.sensorLabel) +
+                             "): " + detail::printable(file);
   }
 }
 

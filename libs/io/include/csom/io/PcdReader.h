@@ -26,6 +26,8 @@ struct PcdCloud {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::uint32_t> labels;  ///< one a point, or empty if there is no field `label`
   std::vector<float> intensities;     ///< one a point, or empty if there is no field `intensity`
+  bool has_labels = false;            ///< there is a field `label`, if perhaps no point
+  bool has_intensities = false;       ///< there is a field `intensity`, if perhaps no point
 
   /// VIEWPOINT: pose of the sensor in the frame of the points.
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();

@@ -40,7 +40,13 @@ bool parseNumber(std::string_view text, Number& value) {
   return result.ec == std::errc() && result.ptr == end;
 }
 
-/// A word from a file for an error message: shortened, and without unprintable bytes.
+/// Text from a file as it may be shown on a terminal: its control characters become '?'.
+std::string printable(std::string_view text);
+
+/// A word from a file for an error message: printable, shortened, and in quotation marks.
 std::string quoted(std::string_view text);
+
+/// "a, b, c".
+std::string joined(const std::vector<std::string>& words);
 
 }  // namespace csom::detail
