@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Logs of every format, whole, cut off, damaged and of other kinds.
 #include <csom/rawlog/RawlogReader.h>
+#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationComment.h>
@@ -208,6 +209,27 @@ TEST(RawlogReader, RefusesWhatIsNoLog) {
   EXPECT_THAT(errorOf(folder / "map"), HasSubstr("CSimplePointsMap"));
   for (const char* name : {"missing", "empty", "text", "zeros", "unknown", "map"})
     EXPECT_THAT(errorOf(folder / name), testing::Not(HasSubstr("\n"))) << name;
+}
+
+// A short log fails when it is closed, a long one while it is written.
+TEST(RawlogWriter, ReportsAFullDisk) {
+  for (const int entries : {1, 400}) {
+    EXPECT_THAT(fileErrorOf([&] { writeLog("/dev/full", driveEntries(entries)); }),
+                testing::AllOf(testing::HasSubstr("/dev/full: cannot be written"),
+                               testing::HasSubstr("No space left")));
+  }
+}
+
+TEST(RawlogWriter, WritesTheBytesOfMrpt) {
+  const TempFolder folder;
+  const Entries entries = driveEntries(20);
+  {
+    mrpt::io::CFileGZOutputStream stream(folder / "mrpt.rawlog");
+    auto archive = mrpt::serialization::archiveFrom(stream);
+    for (const auto& entry : entries) archive << *entry;
+  }
+  EXPECT_EQ(readBytes(writeLog(folder / "ours.rawlog", entries)),
+            readBytes(folder / "mrpt.rawlog"));
 }
 
 }  // namespace
