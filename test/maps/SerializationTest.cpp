@@ -4,8 +4,13 @@
 #include <gtest/gtest.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
+#include <xxhash.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <functional>
+#include <limits>
 #include <random>
 
 #include "SampleObservations.h"
@@ -31,6 +36,60 @@ void readInto(CSemanticContinuousMap& map, const Bytes& bytes) {
   stream.assignMemoryNotOwn(bytes.data(), bytes.size());
   auto archive = mrpt::serialization::archiveFrom(stream);
   archive >> map;
+}
+
+/// The parts of a stream that holds one map: what is before its block, the block, what is behind.
+/// Damage in the block gets past the checksum, to the checks that are behind it.
+struct Parts {
+  Bytes front;
+  Bytes block;
+  Bytes back;
+
+  explicit Parts(const Bytes& bytes) {
+    // The block's size and checksum follow the name of the class and the version.
+    const std::string name = "csom::CSemanticContinuousMap";
+    auto begin = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
+    begin += static_cast<std::ptrdiff_t>(name.size() + 1);
+    std::uint64_t size = 0;
+    std::memcpy(&size, &*begin, sizeof size);
+    const auto block_at = begin + 16;
+    const auto block_end = block_at + static_cast<std::ptrdiff_t>(size);
+    front.assign(bytes.begin(), begin);
+    block.assign(block_at, block_end);
+    back.assign(block_end, bytes.end());
+  }
+
+  Bytes joined() const {
+    Bytes bytes = front;
+    for (const std::uint64_t number :
+         {static_cast<std::uint64_t>(block.size()), XXH3_64bits(block.data(), block.size())}) {
+      const auto* begin = reinterpret_cast<const std::uint8_t*>(&number);
+      bytes.insert(bytes.end(), begin, begin + sizeof number);
+    }
+    bytes.insert(bytes.end(), block.begin(), block.end());
+    bytes.insert(bytes.end(), back.begin(), back.end());
+    return bytes;
+  }
+};
+
+/// Reads a map and, if that is no error, uses it. Returns whether it was read.
+bool isReadOrRejected(const Bytes& bytes) {
+  CSemanticContinuousMap map;
+  try {
+    readInto(map, bytes);
+  } catch (const std::exception&) {
+    return false;
+  }
+  CSemanticContinuousMap copy;
+  readInto(copy, serialised(map));
+  EXPECT_EQ(mapDigest(copy.map()), mapDigest(map.map()));
+  EXPECT_EQ(map.map().options().number_of_classes, map.labels().numberOfClasses());
+  map.map().forEachVoxel([&](const VoxelIndex&, const DirichletVoxel& voxel) {
+    EXPECT_LT(voxel.mostLikelyClass(), map.labels().numberOfClasses());
+  });
+  EXPECT_FALSE(std::isnan(map.computeObservationLikelihood(*testing::pointCloud({{1, 0, 0}}, {40}),
+                                                           mrpt::poses::CPose3D())));
+  return true;
 }
 
 std::map<std::string, std::string> asText(const Options& options) {
@@ -155,6 +214,69 @@ TEST(Serialization, flippedBytesAreErrors) {
     damaged[position(random)] ^= static_cast<std::uint8_t>(1U << (random() % 8));
     CSemanticContinuousMap map;
     EXPECT_THROW(readInto(map, damaged), std::exception);
+  }
+}
+
+TEST(Serialization, damageWithAValidChecksumIsAnErrorOrAValidMap) {
+  const Parts parts(serialised(fullMap()));
+  ASSERT_EQ(Parts(parts.joined()).block, parts.block);
+  ASSERT_TRUE(isReadOrRejected(parts.joined()));
+  std::mt19937 random(4);
+  std::size_t read = 0;
+  std::size_t rejected = 0;
+  const auto flip = [&](std::size_t position) {
+    Parts damaged = parts;
+    damaged.block[position] ^= static_cast<std::uint8_t>(1U << (random() % 8));
+    ++(isReadOrRejected(damaged.joined()) ? read : rejected);
+  };
+  // Most of what is checked stands before the voxels.
+  const std::size_t head = std::min<std::size_t>(parts.block.size(), 4000);
+  for (std::size_t position = 0; position < head; position += 3) flip(position);
+  for (int i = 0; i < 500; ++i) flip(random() % parts.block.size());
+  EXPECT_GT(read, 0u);
+  EXPECT_GT(rejected, 0u);
+}
+
+TEST(Serialization, shortOrLongBlocksWithAValidChecksumAreErrors) {
+  const Parts parts(serialised(fullMap()));
+  const std::size_t step = std::max<std::size_t>(1, parts.block.size() / 500);
+  for (std::size_t size = 0; size < parts.block.size(); size += step) {
+    Parts shorter = parts;
+    shorter.block.resize(size);
+    EXPECT_FALSE(isReadOrRejected(shorter.joined())) << size;
+  }
+  Parts longer = parts;
+  longer.block.push_back(0);
+  EXPECT_FALSE(isReadOrRejected(longer.joined()));
+}
+
+TEST(Serialization, optionsAreChecked) {
+  using Map = CSemanticContinuousMap;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::function<void(Map&)>> faults = {
+      [](Map& map) { map.likelihoodOptions.sigma = 0; },
+      [nan](Map& map) { map.likelihoodOptions.sigma = nan; },
+      [nan](Map& map) { map.likelihoodOptions.max_distance = nan; },
+      [](Map& map) { map.likelihoodOptions.decimation = 0; },
+      [](Map& map) { map.insertionOptions.unlabelled_class = "lawn"; }};
+  for (const auto& fault : faults) {
+    Map map = roomMap();
+    fault(map);
+    Map copy;
+    EXPECT_THROW(readInto(copy, serialised(map)), std::exception);
+    EXPECT_TRUE(copy.isEmpty());
+  }
+}
+
+TEST(Serialization, labelSetsAreNotMixedUp) {
+  const CSemanticContinuousMap occupancy;
+  const CSemanticContinuousMap room = roomMap();
+  CSemanticContinuousMap copy;
+  for (int i = 0; i < 2; ++i) {
+    readInto(copy, serialised(room));
+    EXPECT_EQ(copy.labels(), room.labels());
+    readInto(copy, serialised(occupancy));
+    EXPECT_EQ(copy.labels(), occupancy.labels());
   }
 }
 

@@ -39,8 +39,8 @@ class ByteWriter {
 /// Every read throws std::runtime_error if fewer bytes are left than it needs.
 class ByteReader {
  public:
-  /// `bytes` must outlive the reader.
-  explicit ByteReader(const std::vector<std::uint8_t>& bytes) : bytes_(&bytes) {}
+  /// The bytes must outlive the reader.
+  ByteReader(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
 
   template <class Number>
   Number number() {
@@ -68,16 +68,17 @@ class ByteReader {
   }
   const void* raw(std::size_t size) {
     if (size > left())
-      throw std::runtime_error("serialised map ends at byte " + std::to_string(bytes_->size()) +
-                               " where " + std::to_string(size) + " more are needed");
-    const std::uint8_t* data = bytes_->data() + position_;
+      throw std::runtime_error("serialised map ends at byte " + std::to_string(size_) + " where " +
+                               std::to_string(size) + " more are needed");
+    const std::uint8_t* data = data_ + position_;
     position_ += size;
     return data;
   }
-  std::size_t left() const { return bytes_->size() - position_; }
+  std::size_t left() const { return size_ - position_; }
 
  private:
-  const std::vector<std::uint8_t>* bytes_;
+  const std::uint8_t* data_;
+  std::size_t size_;
   std::size_t position_ = 0;
 };
 

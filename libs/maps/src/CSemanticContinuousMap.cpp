@@ -85,7 +85,7 @@ std::map<std::string, std::string> describe(const InsertionStatistics& statistic
 CSemanticContinuousMap::CSemanticContinuousMap() : CSemanticContinuousMap(Options{}) {}
 
 CSemanticContinuousMap::CSemanticContinuousMap(const Options& options, const LabelSet& labels)
-    : map_(withClassesOf(options, labels)), labels_(std::make_shared<const LabelSet>(labels)) {}
+    : map_(withClassesOf(options, labels)), labels_(std::make_shared<const SharedLabels>(labels)) {}
 
 // The base class is not copied: observers subscribe to one map, not to its copies.
 CSemanticContinuousMap::CSemanticContinuousMap(const CSemanticContinuousMap& other)
@@ -122,7 +122,7 @@ CSemanticContinuousMap& CSemanticContinuousMap::operator=(const CSemanticContinu
 }
 
 MapDocument CSemanticContinuousMap::document() const {
-  MapDocument document{map_, *labels_, scans_, meta_};
+  MapDocument document{map_, labels(), scans_, meta_};
   for (const auto& [key, value] : describe(statistics_)) {
     std::string& noted = document.meta[key];
     noted = noted.empty() ? value : addCounts(noted, value);
@@ -131,15 +131,23 @@ MapDocument CSemanticContinuousMap::document() const {
 }
 
 void CSemanticContinuousMap::setDocument(MapDocument document) {
-  if (document.map.options().number_of_classes != document.labels.numberOfClasses())
+  setContent(std::move(document.map),
+             std::make_shared<const SharedLabels>(std::move(document.labels)),
+             std::move(document.scans), std::move(document.meta));
+}
+
+void CSemanticContinuousMap::setContent(SemanticMap map, std::shared_ptr<const SharedLabels> labels,
+                                        std::vector<ScanRecord> scans,
+                                        std::map<std::string, std::string> meta) {
+  if (map.options().number_of_classes != labels->set().numberOfClasses())
     throw std::invalid_argument("the map and its label set differ in their number of classes");
-  map_ = std::move(document.map);
-  labels_ = std::make_shared<const LabelSet>(std::move(document.labels));
-  scans_ = std::move(document.scans);
-  meta_ = std::move(document.meta);
+  map_ = std::move(map);
+  labels_ = std::move(labels);
+  scans_ = std::move(scans);
+  meta_ = std::move(meta);
   statistics_ = {};
-  last_insertion_ = {};
   statistics_.inserted = scans_.size();
+  last_insertion_ = {};
   adapter_.reset();
   invalidatePoints();
 }
@@ -147,7 +155,7 @@ void CSemanticContinuousMap::setDocument(MapDocument document) {
 std::string CSemanticContinuousMap::asString() const {
   return "csom::CSemanticContinuousMap: " + std::to_string(map_.knownVoxelCount()) +
          " known voxels of " + toString(map_.options().resolution) + " m, " +
-         std::to_string(labels_->numberOfClasses()) + " classes (" + labels_->name() + "), " +
+         std::to_string(labels().numberOfClasses()) + " classes (" + labels().name() + "), " +
          std::to_string(scans_.size()) + " observations";
 }
 
@@ -181,7 +189,7 @@ void CSemanticContinuousMap::invalidatePoints() {
 }
 
 LabelRules CSemanticContinuousMap::labelRules() const {
-  return LabelRules(*labels_, insertionOptions.point_labels, insertionOptions.unlabelled_class,
+  return LabelRules(labels(), insertionOptions.point_labels, insertionOptions.unlabelled_class,
                     insertionOptions.scan_2d_class);
 }
 

@@ -39,7 +39,7 @@ void CSemanticContinuousMap::getVisualizationInto(mrpt::opengl::CSetOfObjects& s
   voxels->setVisualizationMode(COctoMapVoxels::FIXED);
   voxels->enableLights(true);
   voxels->resizeVoxelSets(2);
-  addVoxels(map_, *labels_, renderingOptions, *voxels);
+  addVoxels(map_, labels(), renderingOptions, *voxels);
   const VoxelIndex& max = box->max;
   voxels->setBoundingBox(toPoint(map_.grid().lowerCorner(box->min)),
                          toPoint(map_.grid().lowerCorner({max.x + 1, max.y + 1, max.z + 1})));

@@ -7,6 +7,8 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cstring>
+#include <memory>
 #include <stdexcept>
 
 #include "ByteStream.h"
@@ -87,29 +89,15 @@ LabelCounts readLabelCounts(ByteReader& in) {
   return counts;
 }
 
-/// Calls visit(field) for every number of a report.
-template <class Report, class Visitor>
-void visitReport(Report& report, Visitor&& visit) {
-  visit(report.points);
-  for (auto& count : report.rejected) visit(count);
-  visit(report.training_points);
-  visit(report.free_points);
-  visit(report.free_voxels);
-  visit(report.blocks_observed);
-  visit(report.blocks_filled);
-  visit(report.voxels_updated);
-  visit(report.prepare_ms);
-  visit(report.infer_ms);
-  visit(report.commit_ms);
-}
-
 void write(ByteWriter& out, const ScanReport& report) {
-  visitReport(report, [&](const auto& field) { out.number(field); });
+  visitReport(report, [&](const std::string&, const auto& field) { out.number(field); });
 }
 
 ScanReport readReport(ByteReader& in) {
   ScanReport report;
-  visitReport(report, [&](auto& field) { field = in.number<std::decay_t<decltype(field)>>(); });
+  visitReport(report, [&](const std::string&, auto& field) {
+    field = in.number<std::decay_t<decltype(field)>>();
+  });
   return report;
 }
 
@@ -182,22 +170,32 @@ void readChunks(ByteReader& in, SemanticMap& map) {
   }
 }
 
+/// Bytes of a stream. Unlike a std::vector it does not fill memory that is overwritten at once,
+/// which takes as long as reading.
+struct Block {
+  std::unique_ptr<std::uint8_t[]> data;
+  std::size_t size = 0;
+};
+
 /// The announced size is believed piece by piece: a wrong one ends with the stream, not with the
 /// memory.
-std::vector<std::uint8_t> readBlock(mrpt::serialization::CArchive& in) {
-  constexpr std::uint64_t kPiece = 1U << 24U;
-  auto left = in.ReadAs<std::uint64_t>();
+Block readBlock(mrpt::serialization::CArchive& in) {
+  constexpr std::uint64_t kFirstPiece = 1U << 24U;
+  const auto announced = in.ReadAs<std::uint64_t>();
   const auto hash = in.ReadAs<std::uint64_t>();
-  std::vector<std::uint8_t> block;
-  while (left > 0) {
-    const auto size = static_cast<std::size_t>(std::min(left, kPiece));
-    const std::size_t begin = block.size();
-    block.resize(begin + size);
-    if (in.ReadBuffer(block.data() + begin, size) != size)
+  Block block;
+  while (block.size < announced) {
+    const std::uint64_t next = std::max<std::uint64_t>(kFirstPiece, 2 * block.size);
+    const auto size = static_cast<std::size_t>(std::min(announced, next));
+    std::unique_ptr<std::uint8_t[]> larger(new std::uint8_t[size]);
+    if (block.size > 0) std::memcpy(larger.get(), block.data.get(), block.size);
+    block.data = std::move(larger);
+    const std::size_t missing = size - block.size;
+    if (in.ReadBuffer(block.data.get() + block.size, missing) != missing)
       throw std::runtime_error("serialised map: the stream ends in the middle of it");
-    left -= size;
+    block.size = size;
   }
-  if (XXH3_64bits(block.data(), block.size()) != hash)
+  if (XXH3_64bits(block.data.get(), block.size) != hash)
     throw std::runtime_error("serialised map: the bytes are not those that were written");
   return block;
 }
@@ -209,6 +207,8 @@ std::uint8_t CSemanticContinuousMap::serializeGetVersion() const {
 }
 
 void CSemanticContinuousMap::serializeTo(mrpt::serialization::CArchive& out) const {
+  // One block, written at once: MRPT's stream in memory moves all that it holds for every few
+  // kilobytes that are added to it.
   ByteWriter block;
   block.reserve(map_.memoryBytes() + 512 * scans_.size());
   for (const bool flag :
@@ -223,7 +223,7 @@ void CSemanticContinuousMap::serializeTo(mrpt::serialization::CArchive& out) con
   block.number(likelihoodOptions.max_distance);
   block.number(likelihoodOptions.sigma);
   write(block, map_.options());
-  block.text(labels_->toYaml());
+  block.text(labels_->yaml());
   write(block, meta_);
   write(block, statistics_);
   write(block, scans_);
@@ -241,8 +241,8 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
     throw std::runtime_error("serialised map: version " + std::to_string(version) +
                              " is later than this program's " + std::to_string(kVersion));
   }
-  const std::vector<std::uint8_t> bytes = readBlock(in);
-  ByteReader block(bytes);
+  const Block bytes = readBlock(in);
+  ByteReader block(bytes.data.get(), bytes.size);
   mrpt::maps::TMapGenericParams generic;
   TRenderingOptions rendering;
   for (bool* flag :
@@ -258,17 +258,19 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
   likelihood.max_distance = block.number<double>();
   likelihood.sigma = block.number<double>();
   likelihood.validate();
-  MapDocument document{SemanticMap(readOptions(block)),
-                       LabelSet::fromYaml(block.text(), "serialised map"),
-                       {},
-                       readTexts(block)};
+  SemanticMap map(readOptions(block));
+  std::shared_ptr<const SharedLabels> labels = SharedLabels::fromYaml(block.text());
+  // Throws for classes that are not in the label set.
+  LabelRules(labels->set(), insertion.point_labels, insertion.unlabelled_class,
+             insertion.scan_2d_class);
+  Texts meta = readTexts(block);
   InsertionStatistics statistics = readStatistics(block);
-  document.scans = readScans(block);
-  readChunks(block, document.map);
+  std::vector<ScanRecord> scans = readScans(block);
+  readChunks(block, map);
   if (block.left() > 0) throw std::runtime_error("serialised map: bytes after its end");
 
-  // Everything is there: from here on nothing throws but setDocument, before it changes anything.
-  setDocument(std::move(document));
+  // Everything is there: from here on nothing throws but setContent, before it changes anything.
+  setContent(std::move(map), std::move(labels), std::move(scans), std::move(meta));
   statistics_ = std::move(statistics);
   genericMapParams = generic;
   insertionOptions = insertion;

@@ -8,6 +8,7 @@
 #include <csom/maps/LabelRules.h>
 #include <csom/maps/ObservationAdapter.h>
 #include <csom/maps/OccupiedPoints.h>
+#include <csom/maps/SharedLabels.h>
 #include <mrpt/config/CConfigFileBase.h>
 #include <mrpt/config/CLoadableOptions.h>
 #include <mrpt/maps/CMetricMap.h>
@@ -110,7 +111,7 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   CSemanticContinuousMap& operator=(const CSemanticContinuousMap& other);
 
   const SemanticMap& map() const { return map_; }
-  const LabelSet& labels() const { return *labels_; }
+  const LabelSet& labels() const { return labels_->set(); }
   /// One record for each inserted observation, in order.
   const std::vector<ScanRecord>& scans() const { return scans_; }
   const InsertionStatistics& statistics() const { return statistics_; }
@@ -186,12 +187,15 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
 
   LabelRules labelRules() const;
   void invalidatePoints();
+  /// Replaces all but the MRPT-side options. Throws before it changes anything.
+  void setContent(SemanticMap map, std::shared_ptr<const SharedLabels> labels,
+                  std::vector<ScanRecord> scans, std::map<std::string, std::string> meta);
   /// Returns true if any point was used.
   bool insertScan(const AdaptedScan& adapted);
   void noteDamaged(const mrpt::obs::CObservation& observation, const std::string& why);
 
   SemanticMap map_;
-  std::shared_ptr<const LabelSet> labels_;  ///< never null; shared between copies
+  std::shared_ptr<const SharedLabels> labels_;  ///< never null; shared between copies
   std::vector<ScanRecord> scans_;
   InsertionStatistics statistics_;
   LastInsertion last_insertion_;
