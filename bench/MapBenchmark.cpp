@@ -4,6 +4,8 @@
 #include <csom/core/SemanticMap.h>
 
 #include <cstdlib>
+#include <functional>
+#include <memory>
 #include <random>
 #include <string>
 
@@ -97,36 +99,42 @@ void visitVoxels(benchmark::State& state) {
                                                 benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void registerInsertions(const std::string& name, const std::vector<Scan>& scans) {
+/// Scans are made when the first benchmark that wants them runs, and kept for the others.
+using ScanMaker = std::function<std::vector<Scan>()>;
+
+void registerInsertions(const std::string& name, const ScanMaker& make) {
+  const auto scans = std::make_shared<std::vector<Scan>>();
+  const auto add = [&](const std::string& variant, const Options& options) {
+    const auto run = [scans, make, options](benchmark::State& state) {
+      if (scans->empty()) *scans = make();
+      insertScans(state, *scans, options);
+    };
+    benchmark::RegisterBenchmark(("insert/" + name + "/" + variant).c_str(), run)
+        ->Unit(benchmark::kMillisecond);
+  };
   for (const char* neighbourhood : {"radius", "extended-block"}) {
     Options options = streetOptions();
     csom::setOption(options, "neighbourhood", neighbourhood);
-    const auto run = [scans, options](benchmark::State& state) {
-      insertScans(state, scans, options);
-    };
-    benchmark::RegisterBenchmark(("insert/" + name + "/" + neighbourhood).c_str(), run)
-        ->Unit(benchmark::kMillisecond);
+    add(neighbourhood, options);
   }
   for (const char* free_space : {"sampled", "raycast"}) {
     Options options = streetOptions();
     options.max_range = 50;
     csom::setOption(options, "free_space", free_space);
-    const auto run = [scans, options](benchmark::State& state) {
-      insertScans(state, scans, options);
-    };
-    benchmark::RegisterBenchmark(("insert/" + name + "/free-" + free_space).c_str(), run)
-        ->Unit(benchmark::kMillisecond);
+    add(std::string("free-") + free_space, options);
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  registerInsertions("street-small", {csom::bench::streetScan(100)});
-  registerInsertions("street", {csom::bench::streetScan(2000)});
+  registerInsertions("street-small",
+                     [] { return std::vector<Scan>{csom::bench::streetScan(100)}; });
+  registerInsertions("street", [] { return std::vector<Scan>{csom::bench::streetScan(2000)}; });
   if (const char* data = std::getenv("CSOM_DATA"))
-    registerInsertions("semantickitti",
-                       csom::bench::semanticKittiScans(std::string(data) + "/semantickitti_08", 5));
+    registerInsertions("semantickitti", [folder = std::string(data) + "/semantickitti_08"] {
+      return csom::bench::semanticKittiScans(folder, 5);
+    });
   benchmark::RegisterBenchmark("copy", copyMap)->Unit(benchmark::kMicrosecond);
   benchmark::RegisterBenchmark("point-query", askForPoints);
   benchmark::RegisterBenchmark("cast-ray", castRays);

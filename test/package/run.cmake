@@ -25,6 +25,12 @@ run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run(${WORK_DIR}/build/consumer)
 
+run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${CONSUMER_DIR}/core_only -B ${WORK_DIR}/core_only
+  -DCMAKE_PREFIX_PATH=${WORK_DIR}/moved -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+  -DCMAKE_CXX_FLAGS=${CXX_FLAGS} -DCMAKE_BUILD_TYPE=${BUILD_TYPE})
+run(${CMAKE_COMMAND} --build ${WORK_DIR}/core_only)
+run(${WORK_DIR}/core_only/planner)
+
 run(${WORK_DIR}/moved/${BINDIR}/csom --version)
 foreach(file labels/semantickitti.yaml campus.ini)
   if(NOT EXISTS ${WORK_DIR}/moved/${DATADIR}/mrpt_csom/${file})
