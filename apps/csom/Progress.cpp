@@ -2,6 +2,7 @@
 // How far a long command has come, on stderr.
 #include "Progress.h"
 
+#include <csom/report/Format.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -17,22 +18,6 @@ constexpr int kBarWidth = 30;
 constexpr char kWipeLine[] = "\r\033[K";
 
 }  // namespace
-
-std::string durationText(double seconds) {
-  const long total = std::lround(seconds);
-  char text[32];
-  if (total >= 3600)
-    std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", total / 3600, total / 60 % 60, total % 60);
-  else
-    std::snprintf(text, sizeof text, "%ld:%02ld", total / 60, total % 60);
-  return text;
-}
-
-std::string groupedDigits(std::size_t number) {
-  std::string digits = std::to_string(number);
-  for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, ",");
-  return digits;
-}
 
 Progress::Progress(std::string what)
     : what_(std::move(what)),
@@ -53,8 +38,8 @@ void Progress::update(std::size_t done, std::size_t total, const std::string& de
 
   const double share = static_cast<double>(done) / static_cast<double>(total);
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const std::string left = durationText(elapsed / share - elapsed);
-  const std::string state = groupedDigits(done) + "/" + groupedDigits(total) + "  " + detail +
+  const std::string left = formatDuration(elapsed / share - elapsed);
+  const std::string state = formatCount(done) + "/" + formatCount(total) + "  " + detail +
                             (detail.empty() ? "" : "  ") + "ETA " + left;
   if (on_terminal_) {
     const auto filled = static_cast<std::size_t>(std::lround(share * kBarWidth));

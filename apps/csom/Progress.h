@@ -29,9 +29,4 @@ class Progress {
   Clock::time_point last_;
 };
 
-/// "0:07", "12:30", "1:02:03".
-std::string durationText(double seconds);
-/// 1234567 → "1,234,567".
-std::string groupedDigits(std::size_t number);
-
 }  // namespace csom

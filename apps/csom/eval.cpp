@@ -3,9 +3,12 @@
 #include <csom/core/Error.h>
 #include <csom/eval/VoxelScore.h>
 #include <csom/io/MapFile.h>
+#include <csom/io/TextParser.h>
 
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
+#include <string>
 
 #include "Output.h"
 #include "commands.h"
@@ -53,19 +56,31 @@ void printAsText(const VoxelScore& score, const LabelSet& labels) {
   for (int i = 1; i < score.numberOfClasses(); ++i) {
     const auto k = static_cast<ClassId>(i);
     if (score.truthCount(k) + score.predictedCount(k) == 0) continue;
-    std::printf("  %-20s %10zu %10zu %8.2f %10.2f %8.2f\n", labels.at(k).name.c_str(),
-                score.truthCount(k), score.predictedCount(k), percent(score.iou(k)),
-                percent(score.precision(k)), percent(score.recall(k)));
+    std::printf("  %-20s %10zu %10zu %8.2f %10.2f %8.2f\n",
+                detail::printable(labels.at(k).name).c_str(), score.truthCount(k),
+                score.predictedCount(k), percent(score.iou(k)), percent(score.precision(k)),
+                percent(score.recall(k)));
+  }
+}
+
+VoxelScore scoreOf(const MapDocument& map, const MapDocument& truth,
+                   const EvalArguments& arguments) {
+  try {
+    return VoxelScore(map.map, truth.map);
+  } catch (const std::invalid_argument& error) {
+    throw FileError(arguments.map,
+                    std::string("scored against ") + arguments.truth + ": " + error.what());
   }
 }
 
 void runEvalVoxels(const EvalArguments& arguments) {
   const MapDocument map = loadMap(arguments.map);
   const MapDocument truth = loadMap(arguments.truth);
-  if (map.labels.toYaml() != truth.labels.toYaml())
+  if (map.labels != truth.labels)
     throw ConfigError(arguments.map + " and " + arguments.truth + " have different label sets (" +
-                      map.labels.name() + ", " + truth.labels.name() + "): use one for both");
-  const VoxelScore score(map.map, truth.map);
+                      detail::quoted(map.labels.name()) + ", " +
+                      detail::quoted(truth.labels.name()) + "): use one for both");
+  const VoxelScore score = scoreOf(map, truth, arguments);
   if (arguments.json)
     printAsJson(score, truth.labels);
   else
@@ -83,8 +98,8 @@ void addEvalCommand(CLI::App& program) {
       "Scores a map against the truth, voxel by voxel: IoU of each class, their average weighted\n"
       "by frequency, and occupied against not. The truth is a map too: 'csom simulate --truth'\n"
       "writes the exact one of a simulated world; of a labelled data set it is the map of all\n"
-      "points with 'method = s-csm' and 'ds_resolution = 0' (config/stanford-truth.ini), the\n"
-      "majority class of the points in each voxel.");
+      "points made by the same ini with 'method = s-csm' and 'ds_resolution = 0', the majority\n"
+      "class of the points in each voxel.");
   voxels->add_option("--map", arguments->map, "map to score (.csom)")->required();
   voxels->add_option("--truth", arguments->truth, "map of the truth (.csom)")->required();
   voxels->add_flag("--json", arguments->json, "print JSON");

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // csom import: data sets become rawlogs.
+#include <csom/io/TextParser.h>
 #include <csom/rawlog/ImportKittiRaw.h>
 #include <csom/rawlog/ImportPcd.h>
 #include <csom/rawlog/ImportSemanticKitti.h>
+#include <csom/report/Format.h>
 
 #include <cstdio>
 #include <map>
@@ -38,10 +40,10 @@ ImportProgress shownBy(Progress& progress) {
 
 void printSummary(const ImportSummary& summary, const std::string& rawlog) {
   for (const std::string& warning : summary.warnings)
-    std::fprintf(stderr, "csom: warning: %s\n", warning.c_str());
-  std::printf("%s: %s scans, %s points", rawlog.c_str(), groupedDigits(summary.scans).c_str(),
-              groupedDigits(summary.points).c_str());
-  if (summary.images > 0) std::printf(", %s images", groupedDigits(summary.images).c_str());
+    std::fprintf(stderr, "csom: warning: %s\n", detail::printable(warning).c_str());
+  std::printf("%s: %s scans, %s points", rawlog.c_str(), formatCount(summary.scans).c_str(),
+              formatCount(summary.points).c_str());
+  if (summary.images > 0) std::printf(", %s images", formatCount(summary.images).c_str());
   std::printf("\n");
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // csom info: what a map file holds.
 #include <csom/io/MapFile.h>
+#include <csom/io/TextParser.h>
+#include <csom/report/ClassesJson.h>
 #include <csom/report/MapFigures.h>
 
 #include <cstdio>
@@ -48,19 +50,6 @@ Json scansToJson(const MapDocument& document) {
   return json;
 }
 
-Json classesToJson(const MapFigures& figures) {
-  Json classes = Json::array();
-  for (const ClassFigures& c : figures.classes)
-    classes.push_back({{"id", c.id},
-                       {"name", c.name},
-                       {"color", c.color},
-                       {"voxels", c.voxels},
-                       {"volume_m3", c.volume},
-                       {"share", c.share},
-                       {"mean_probability", c.mean_probability}});
-  return classes;
-}
-
 void printAsJson(const MapDocument& document, const MapFigures& figures) {
   Json json;
   json["digest"] = figures.digest;
@@ -76,7 +65,7 @@ void printAsJson(const MapDocument& document, const MapFigures& figures) {
     json["bounding_box_m"] = {{"min", toJson(Eigen::Vector3d(figures.bounds.min()))},
                               {"max", toJson(Eigen::Vector3d(figures.bounds.max()))}};
   json["scans"] = scansToJson(document);
-  json["classes"] = classesToJson(figures);
+  json["classes"] = classesToJson(figures.classes);
   Json options = Json::object();
   visitOptions(document.map.options(),
                [&](const char* name, const auto& value, const char*, const char*) {
@@ -95,7 +84,7 @@ void printScans(const MapDocument& document) {
   const ScanSummary summary = summarise(document.scans);
   std::printf("\nscans           %zu, %zu points\n", document.scans.size(), summary.total.points);
   for (const auto& [name, count] : summary.by_class)
-    std::printf("  %-30s %zu\n", name.c_str(), count);
+    std::printf("  %-30s %zu\n", detail::printable(name).c_str(), count);
   for (std::size_t i = 0; i < kRejectReasons; ++i) {
     if (summary.total.rejected[i] != 0)
       std::printf("  points rejected, %-13s %zu\n", toString(static_cast<RejectReason>(i)),
@@ -104,13 +93,15 @@ void printScans(const MapDocument& document) {
 }
 
 void printClasses(const MapDocument& document, const MapFigures& figures) {
-  std::printf("\nclasses         label set %s\n", document.labels.name().c_str());
+  std::printf("\nclasses         label set %s\n",
+              detail::printable(document.labels.name()).c_str());
   std::printf("  %3s  %-20s %10s %12s %7s %12s\n", "id", "name", "voxels", "volume [m3]", "share",
               "probability");
   for (const ClassFigures& c : figures.classes) {
     if (c.voxels == 0) continue;
-    std::printf("  %3d  %-20s %10zu %12.2f %6.1f%% %12.3f\n", c.id, c.name.c_str(), c.voxels,
-                c.volume, 100 * c.share, c.mean_probability);
+    std::printf("  %3d  %-20s %10zu %12.2f %6.1f%% %12.3f\n", c.id,
+                detail::printable(c.name).c_str(), c.voxels, c.volume, 100 * c.share,
+                c.mean_probability);
   }
 }
 
@@ -136,7 +127,7 @@ void printAsText(const MapDocument& document, const MapFigures& figures) {
                });
   if (!document.meta.empty()) std::printf("\nmeta\n");
   for (const auto& [key, value] : document.meta)
-    std::printf("  %-24s %s\n", key.c_str(), value.c_str());
+    std::printf("  %-24s %s\n", detail::printable(key).c_str(), detail::printable(value).c_str());
 }
 
 void runInfo(const InfoArguments& arguments) {

@@ -2,6 +2,7 @@
 // csom: rawlogs in; maps, exports and reports out.
 #include <csom/core/Error.h>
 #include <csom/core/Options.h>
+#include <csom/io/TextParser.h>
 
 #include <cstdio>
 #include <exception>
@@ -63,13 +64,13 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : kUsage;
   } catch (const csom::ConfigError& error) {
-    std::fprintf(stderr, "csom: %s\n", error.what());
+    std::fprintf(stderr, "csom: %s\n", csom::detail::printable(error.what()).c_str());
     return kUsage;
   } catch (const csom::OptionError& error) {
-    std::fprintf(stderr, "csom: %s\n", error.what());
+    std::fprintf(stderr, "csom: %s\n", csom::detail::printable(error.what()).c_str());
     return kUsage;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "csom: %s\n", error.what());
+    std::fprintf(stderr, "csom: %s\n", csom::detail::printable(error.what()).c_str());
     return kFailed;
   }
 }

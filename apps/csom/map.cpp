@@ -3,8 +3,10 @@
 #include <csom/core/Error.h>
 #include <csom/io/MapFile.h>
 #include <csom/io/OutputFile.h>
+#include <csom/io/TextParser.h>
 #include <csom/rawlog/MappingRun.h>
 #include <csom/rawlog/RawlogWriter.h>
+#include <csom/report/Format.h>
 #include <csom/report/MapFigures.h>
 #include <csom/report/Report.h>
 #include <csom/report/RunRecord.h>
@@ -47,14 +49,8 @@ MappingRequest requestOf(const MapArguments& arguments) {
 MappingResult mapWithProgress(const MappingRequest& request) {
   Progress progress("mapping");
   return mapLogs(request, [&](const MappingProgress& now) {
-    progress.update(now.entries_done, now.entries, groupedDigits(now.scans) + " scans");
+    progress.update(now.entries_done, now.entries, formatCount(now.scans) + " scans");
   });
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 std::string poseSourcesOf(const MappingResult& result) {
@@ -63,7 +59,7 @@ std::string poseSourcesOf(const MappingResult& result) {
     const std::string name = log.poses.toString();
     if (names.empty() || names.back() != name) names.push_back(name);
   }
-  return joined(names);
+  return detail::joined(names);
 }
 
 std::vector<Parameter> parametersOf(const CSemanticContinuousMap& map) {
@@ -102,7 +98,7 @@ MapDocument documentOf(const RunRecord& record, const MappingResult& result) {
   MapDocument document = result.map->document();
   document.meta["created_by"] = "csom " + record.program_version;
   document.meta["command"] = record.command;
-  document.meta["rawlog"] = joined(record.inputs);
+  document.meta["rawlog"] = detail::joined(record.inputs);
   document.meta["poses"] = record.pose_source;
   return document;
 }
@@ -110,18 +106,18 @@ MapDocument documentOf(const RunRecord& record, const MappingResult& result) {
 void printSummary(const RunRecord& record, const MapFigures& figures, const OutputFolder& folder,
                   bool html) {
   const ScanReport sum = totals(record);
-  std::printf("scans     %s with %s points, poses: %s\n",
-              groupedDigits(record.scans.size()).c_str(), groupedDigits(sum.points).c_str(),
-              record.pose_source.c_str());
+  std::printf("scans     %s with %s points, poses: %s\n", formatCount(record.scans.size()).c_str(),
+              formatCount(sum.points).c_str(), detail::printable(record.pose_source).c_str());
   if (sum.rejectedTotal() > 0)
     std::printf("rejected  %s points (reasons in run.json)\n",
-                groupedDigits(sum.rejectedTotal()).c_str());
+                formatCount(sum.rejectedTotal()).c_str());
   for (const RefusedObservations& refused : record.refused)
-    std::printf("unused    %s %s: %s\n", groupedDigits(refused.count).c_str(),
-                refused.observation_class.c_str(), refused.reason.c_str());
+    std::printf("unused    %s %s: %s\n", formatCount(refused.count).c_str(),
+                detail::printable(refused.observation_class).c_str(),
+                detail::printable(refused.reason).c_str());
   std::printf("map       %s voxels known, %s occupied, %.1f MB in memory: %s\n",
-              groupedDigits(figures.known_voxels).c_str(),
-              groupedDigits(figures.occupied_voxels).c_str(),
+              formatCount(figures.known_voxels).c_str(),
+              formatCount(figures.occupied_voxels).c_str(),
               static_cast<double>(figures.memory_bytes) / 1e6, folder.file("map.csom").c_str());
   std::printf("time      %.2f s\n", record.wall_seconds);
   std::printf("report    %s\n", folder.file(html ? "report.html" : "run.json").c_str());
@@ -152,7 +148,7 @@ void runMap(const MapArguments& arguments) {
   const MappingResult result = mapWithProgress(request);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   for (const std::string& warning : result.warnings)
-    std::fprintf(stderr, "csom: warning: %s\n", warning.c_str());
+    std::fprintf(stderr, "csom: warning: %s\n", detail::printable(warning).c_str());
 
   const RunRecord record = recordOf(arguments, result, elapsed.count());
   const MapDocument document = documentOf(record, result);
@@ -161,9 +157,9 @@ void runMap(const MapArguments& arguments) {
   saveMap(document, folder.file("map.csom"));
   ReportOptions report;
   report.html = !arguments.no_html;
-  writeReport(record, document, folder.path(), report);
-
   const MapFigures figures = figuresOf(document);
+  writeReport(record, document, figures, folder.path(), report);
+
   if (arguments.json)
     std::printf("%s\n", toJson(record, figures).c_str());
   else

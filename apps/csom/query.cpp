@@ -2,6 +2,7 @@
 // csom query: one question to a map.
 #include <csom/core/Error.h>
 #include <csom/io/MapFile.h>
+#include <csom/io/TextParser.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +57,7 @@ void printVoxel(const DirichletVoxel& voxel, const LabelSet& labels) {
   std::printf("state        %s\n", toString(voxel.state()));
   if (!voxel.known()) return;
   const ClassId best = voxel.mostLikelyClass();
-  std::printf("class        %d %s\n", best, labels.at(best).name.c_str());
+  std::printf("class        %d %s\n", best, detail::printable(labels.at(best).name).c_str());
   std::printf("probability  %s, variance %s\n", toText(voxel.probability(best)).c_str(),
               toText(voxel.variance(best)).c_str());
   std::printf("occupancy    %s\n", toText(voxel.occupancy()).c_str());
@@ -64,8 +65,9 @@ void printVoxel(const DirichletVoxel& voxel, const LabelSet& labels) {
   std::printf("evidence     %s\n", toText(voxel.evidence()).c_str());
   for (int i = 0; i < voxel.size(); ++i) {
     const ClassId k = voxel.classAt(i);
-    std::printf("  %3d  %-20s probability %-10s evidence %s\n", k, labels.at(k).name.c_str(),
-                toText(voxel.probability(k)).c_str(), toText(voxel.evidence(k)).c_str());
+    std::printf("  %3d  %-20s probability %-10s evidence %s\n", k,
+                detail::printable(labels.at(k).name).c_str(), toText(voxel.probability(k)).c_str(),
+                toText(voxel.evidence(k)).c_str());
   }
 }
 
@@ -169,7 +171,8 @@ void queryBox(const MapDocument& document, const QueryArguments& arguments) {
   std::printf("known voxels %zu: %zu occupied, %zu free\n", known, known - free, free);
   for (const LabelClass& c : document.labels.classes())
     if (voxels_of_class[c.id] != 0)
-      std::printf("  %3d  %-20s %10zu\n", c.id, c.name.c_str(), voxels_of_class[c.id]);
+      std::printf("  %3d  %-20s %10zu\n", c.id, detail::printable(c.name).c_str(),
+                  voxels_of_class[c.id]);
 }
 
 void runQuery(const QueryArguments& arguments) {

@@ -5,6 +5,7 @@
 #include <csom/eval/Scenario.h>
 #include <csom/io/MapFile.h>
 #include <csom/rawlog/Simulation.h>
+#include <csom/report/Format.h>
 
 #include <cstdio>
 #include <map>
@@ -70,14 +71,14 @@ TruthSummary writeTruth(const Scenario& scenario, const VoxelBox& box, const std
 void printText(const SimulateArguments& arguments, const SimulationSummary& summary,
                const std::optional<TruthSummary>& truth) {
   std::printf("%s: %s frames, %s observations, %s labelled returns, %.1f s",
-              arguments.rawlog.c_str(), groupedDigits(summary.frames).c_str(),
-              groupedDigits(summary.observations).c_str(), groupedDigits(summary.returns).c_str(),
+              arguments.rawlog.c_str(), formatCount(summary.frames).c_str(),
+              formatCount(summary.observations).c_str(), formatCount(summary.returns).c_str(),
               summary.duration);
   if (summary.length > 0) std::printf(", %.1f m", summary.length);
   std::printf("\n");
   if (truth)
     std::printf("%s: %s occupied and %s free voxels of %g m\n", arguments.truth.c_str(),
-                groupedDigits(truth->occupied).c_str(), groupedDigits(truth->free).c_str(),
+                formatCount(truth->occupied).c_str(), formatCount(truth->free).c_str(),
                 truth->resolution);
 }
 

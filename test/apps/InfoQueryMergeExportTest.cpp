@@ -293,5 +293,37 @@ TEST_F(MapCommandsTest, HelpShowsExamples) {
                 AllOf(HasSubstr("Example"), HasSubstr(std::string("csom ") + command)));
 }
 
+// ---- eval ---------------------------------------------------------------------------------------
+
+TEST_F(MapCommandsTest, EvalNamesBothMapsThatDoNotFit) {
+  MapDocument other = document_;
+  Options options = document_.map.options();
+  options.resolution = 0.5;
+  other.map = SemanticMap(options);
+  saveMap(other, folder_ / "coarse.csom");
+  EXPECT_THAT(errorsOf(1, {"eval", "voxels", "--map", map_, "--truth", folder_ / "coarse.csom"}),
+              AllOf(HasSubstr("map.csom"), HasSubstr("coarse.csom"), HasSubstr("0.25")));
+  other = document_;
+  other.labels = LabelSet::fromYaml(
+      "name: other\nclasses:\n  - {id: 0, name: free, color: [255, 255, 255]}\n"
+      "  - {id: 1, name: road, color: [10, 20, 30]}\n  - {id: 2, name: x, color: [1, 2, 3]}\n",
+      "other");
+  saveMap(other, folder_ / "other.csom");
+  EXPECT_THAT(errorsOf(2, {"eval", "voxels", "--map", map_, "--truth", folder_ / "other.csom"}),
+              AllOf(HasSubstr("map.csom"), HasSubstr("other.csom"), HasSubstr("'other'")));
+}
+
+// ---- hostile texts ------------------------------------------------------------------------------
+
+TEST_F(MapCommandsTest, ControlCharactersOfAMapDoNotReachTheTerminal) {
+  MapDocument hostile = document_;
+  hostile.meta["evil\x1b[2J"] = "\x1b]0;title\x07";
+  hostile.scans[0].observation_class = "C\x1b[31m";
+  saveMap(hostile, folder_ / "hostile.csom");
+  const std::string text = outputOf({"info", folder_ / "hostile.csom"});
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  EXPECT_THAT(text, AllOf(HasSubstr("evil?[2J"), HasSubstr("?]0;title?"), HasSubstr("C?[31m")));
+}
+
 }  // namespace
 }  // namespace csom::test

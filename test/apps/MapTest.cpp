@@ -147,5 +147,12 @@ TEST(ShippedConfigurations, ServeObservations2mapAsTheyServeUs) {
   EXPECT_EQ(maps, 1);
 }
 
+TEST_F(Map, AFullDiskIsAnError) {
+  const auto run = runCsom(folder.path(), {"map", log, "-c", config, "-o", folder / "out",
+                                           "--write-simplemap", "/dev/full"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.errors, HasSubstr("/dev/full: cannot be written: No space left"));
+}
+
 }  // namespace
 }  // namespace csom::test

@@ -233,7 +233,7 @@ TEST_P(TamperedMaps, AreRefusedWithTableAndReason) {
 INSTANTIATE_TEST_SUITE_P(
     All, TamperedMaps,
     testing::Values(
-        Tampering{"NoChunksTable", "DROP TABLE chunks", "no such table: chunks"},
+        Tampering{"NoChunksTable", "DROP TABLE chunks", "has no table chunks"},
         Tampering{"ChunkMissing", "DELETE FROM chunks WHERE rowid = 1", "digest"},
         Tampering{"ChunkMoved", "UPDATE chunks SET x = x + 1000 WHERE rowid = 1", "digest"},
         Tampering{"ChunkFarAway", "UPDATE chunks SET x = 2000000 WHERE rowid = 1",
@@ -325,6 +325,23 @@ TEST(MapDigest, SeesResolutionClassesAndPrior) {
   EXPECT_NE(digest, mapDigest(SemanticMap(classes)));
   EXPECT_NE(digest, mapDigest(SemanticMap(prior)));
   EXPECT_EQ(digest, mapDigest(SemanticMap(threads))) << "threads do not change a map";
+}
+
+TEST_F(MapFileTest, TablesAreTablesAndNotQueriesThatNeverEnd) {
+  const std::string endless =
+      " AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) ";
+  const std::pair<const char*, const char*> views[] = {
+      {"meta", "SELECT 'a' AS key, 'b' AS value FROM n"},
+      {"options", "SELECT 'a' AS key, 'b' AS value FROM n"},
+      {"labels", "SELECT 'a' AS yaml FROM n WHERE i < 0"},
+      {"scans", "SELECT 1 AS id FROM n"},
+      {"chunks", "SELECT i AS x, i AS y, i AS z, i AS hash, x'00' AS record FROM n WHERE i < 0"}};
+  for (const auto& [table, query] : views) {
+    const std::string file = savedMap();
+    runSql(file, std::string("DROP TABLE ") + table + "; CREATE VIEW " + table + endless + query);
+    EXPECT_THAT(loadError(file),
+                AllOf(HasSubstr("map.csom"), HasSubstr(std::string("no table ") + table)));
+  }
 }
 
 }  // namespace

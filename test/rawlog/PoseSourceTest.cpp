@@ -190,5 +190,17 @@ TEST(PoseSource, CountsPosesThatAreNotFinite) {
   EXPECT_EQ(survey.robot_poses.at("truth").size(), 1u);
 }
 
+TEST(PoseSource, LabelsOfALogAreMadePrintable) {
+  const TempFolder folder;
+  const std::string log =
+      writeLog(folder / "two.rawlog", {robotPose(1, {}, "a\x1b[2J"), robotPose(1, {}, "b")});
+  try {
+    PoseSource(std::nullopt, surveyRawlog(log));
+    FAIL() << "no error";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("several labels ('a?[2J', 'b')"));
+  }
+}
+
 }  // namespace
 }  // namespace csom::test

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Figures in words: rounding, units, grouping.
-#include "Format.h"
-
+#include <csom/report/Format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -43,10 +43,11 @@ class ReportTest : public testing::Test {
 
   fs::path folder_;
   MapDocument document_ = test::mapOf({{{0, 0, 0}, 1}});
+  MapFigures figures_ = figuresOf(document_);
 };
 
 TEST_F(ReportTest, WritesThreeFilesAndNoOthers) {
-  writeReport(test::sampleRecord(), document_, (folder_ / "a" / "b").string());
+  writeReport(test::sampleRecord(), document_, figures_, (folder_ / "a" / "b").string());
   folder_ = folder_ / "a" / "b";
   EXPECT_EQ(files(), (std::set<std::string>{"run.json", "top.png", "report.html"}));
   const std::string json = read("run.json");
@@ -60,18 +61,18 @@ TEST_F(ReportTest, WritesThreeFilesAndNoOthers) {
 TEST_F(ReportTest, WritesWhatWasAskedFor) {
   ReportOptions options;
   options.png = options.html = false;
-  writeReport(test::sampleRecord(), document_, folder_.string(), options);
+  writeReport(test::sampleRecord(), document_, figures_, folder_.string(), options);
   EXPECT_EQ(files(), (std::set<std::string>{"run.json"}));
   options.json = false;
   options.html = true;
-  writeReport(test::sampleRecord(), document_, folder_.string(), options);
+  writeReport(test::sampleRecord(), document_, figures_, folder_.string(), options);
   EXPECT_EQ(files(), (std::set<std::string>{"run.json", "report.html"}));
 }
 
 TEST_F(ReportTest, ReplacesAnEarlierReport) {
   fs::create_directories(folder_);
   std::ofstream(folder_ / "run.json") << "old";
-  writeReport(test::sampleRecord(), document_, folder_.string());
+  writeReport(test::sampleRecord(), document_, figures_, folder_.string());
   EXPECT_THAT(read("run.json"), testing::HasSubstr("\"program_version\": \"1.2.3\""));
 }
 
@@ -80,7 +81,7 @@ TEST_F(ReportTest, NamesTheFolderThatItCannotCreate) {
   const fs::path blocked = folder_ / "file" / "out";
   std::ofstream(folder_ / "file") << "in the way";
   try {
-    writeReport(test::sampleRecord(), document_, blocked.string());
+    writeReport(test::sampleRecord(), document_, figures_, blocked.string());
     FAIL() << "it should throw";
   } catch (const FileError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr(blocked.string()));
@@ -90,7 +91,7 @@ TEST_F(ReportTest, NamesTheFolderThatItCannotCreate) {
 TEST_F(ReportTest, NamesTheFileThatItCannotReplace) {
   fs::create_directories(folder_ / "report.html" / "occupied");
   try {
-    writeReport(test::sampleRecord(), document_, folder_.string());
+    writeReport(test::sampleRecord(), document_, figures_, folder_.string());
     FAIL() << "it should throw";
   } catch (const FileError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("report.html"));

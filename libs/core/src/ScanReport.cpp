@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csom/core/ScanReport.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace csom {
@@ -25,22 +26,19 @@ const char* toString(RejectReason reason) {
   return "invalid";
 }
 
+std::string rejectedName(RejectReason reason) {
+  std::string name = std::string("rejected_") + toString(reason);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
 std::size_t ScanReport::rejectedTotal() const {
   return std::accumulate(rejected.begin(), rejected.end(), std::size_t{0});
 }
 
 ScanReport& ScanReport::operator+=(const ScanReport& other) {
-  points += other.points;
-  for (std::size_t i = 0; i < rejected.size(); ++i) rejected[i] += other.rejected[i];
-  training_points += other.training_points;
-  free_points += other.free_points;
-  free_voxels += other.free_voxels;
-  blocks_observed += other.blocks_observed;
-  blocks_filled += other.blocks_filled;
-  voxels_updated += other.voxels_updated;
-  prepare_ms += other.prepare_ms;
-  infer_ms += other.infer_ms;
-  commit_ms += other.commit_ms;
+  visitReports([](const std::string&, auto& sum, const auto& addend) { sum += addend; }, *this,
+               other);
   return *this;
 }
 

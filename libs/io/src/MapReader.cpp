@@ -41,6 +41,17 @@ void checkFormat(const Database& database) {
                     "has the impossible format version " + std::to_string(version) + kDamaged);
 }
 
+/// A view or a virtual table could be a query that never ends.
+void checkTables(const Database& database) {
+  for (const char* table : {"meta", "options", "labels", "scans", "chunks"}) {
+    Statement select(
+        database, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND rootpage > 0 AND name = ?");
+    select.bind(1, std::string_view(table));
+    if (!select.step())
+      throw FileError(database.shownName(), std::string("has no table ") + table + kDamaged);
+  }
+}
+
 std::map<std::string, std::string> readTable(const Database& database, const std::string& table) {
   std::map<std::string, std::string> result;
   Statement select(database, "SELECT key, value FROM " + table);
@@ -103,7 +114,7 @@ std::vector<ScanRecord> readScans(const Database& database) {
     scan.sensor_label = row.text(column++);
     scan.observation_class = row.text(column++);
     for (double& coordinate : scan.origin) coordinate = row.real(column++);
-    detail::visitReportColumns(scan.report, [&](const std::string& name, auto& field) {
+    visitReport(scan.report, [&](const std::string& name, auto& field) {
       readValue(database, row, column++, name, field);
     });
     scans.push_back(std::move(scan));
@@ -151,6 +162,7 @@ MapDocument loadMap(const std::string& file) {
   detail::requireRegularFile(file);
   const Database database(file, file, Database::Mode::ReadOnly);
   checkFormat(database);
+  checkTables(database);
 
   MapDocument document;
   const Options options = readOptions(database);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MapSchema.h"
 
+#include <csom/core/ScanReport.h>
+
 #include <type_traits>
 
 namespace csom::detail {
@@ -17,7 +19,7 @@ std::string scanColumns() {
   std::string columns;
   for (const auto& [name, type] : kFixedScanColumns) columns += std::string(name) + ", ";
   const ScanReport report;
-  visitReportColumns(report, [&](const std::string& name, const auto&) { columns += name + ", "; });
+  visitReport(report, [&](const std::string& name, const auto&) { columns += name + ", "; });
   columns.resize(columns.size() - 2);
   return columns;
 }
@@ -26,7 +28,7 @@ std::string createTables() {
   std::string scans;
   for (const auto& [name, type] : kFixedScanColumns) scans += std::string(", ") + name + " " + type;
   const ScanReport report;
-  visitReportColumns(report, [&](const std::string& name, const auto& field) {
+  visitReport(report, [&](const std::string& name, const auto& field) {
     constexpr bool is_time = std::is_same_v<decltype(field), const double&>;
     scans += ", " + name + (is_time ? " REAL" : " INTEGER");
   });

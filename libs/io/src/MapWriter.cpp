@@ -51,7 +51,7 @@ void writeScans(const Database& database, const std::vector<ScanRecord>& scans) 
     insert.bind(++parameter, scan.sensor_label);
     insert.bind(++parameter, scan.observation_class);
     for (const double coordinate : scan.origin) insert.bind(++parameter, coordinate);
-    detail::visitReportColumns(scan.report, [&](const std::string&, const auto& field) {
+    visitReport(scan.report, [&](const std::string&, const auto& field) {
       bindValue(insert, ++parameter, field);
     });
     insert.run();

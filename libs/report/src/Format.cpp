@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rounding and units for people.
-#include "Format.h"
+#include <csom/report/Format.h>
 
 #include <algorithm>
 #include <cmath>

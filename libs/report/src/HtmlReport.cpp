@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The report page, section by section.
+#include <csom/report/Format.h>
 #include <csom/report/HtmlReport.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <sstream>
 
-#include "Format.h"
 #include "Html.h"
 #include "ReportStyle.h"
 #include "TimingSummary.h"

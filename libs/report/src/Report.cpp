@@ -20,14 +20,13 @@ void writeFile(const std::filesystem::path& path, const void* bytes, std::size_t
 
 }  // namespace
 
-void writeReport(const RunRecord& record, const MapDocument& document, const std::string& folder,
-                 const ReportOptions& options) {
+void writeReport(const RunRecord& record, const MapDocument& document, const MapFigures& figures,
+                 const std::string& folder, const ReportOptions& options) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw FileError(folder, "cannot create this folder: " + error.message());
 
   const std::filesystem::path base(folder);
-  const MapFigures figures = figuresOf(document);
   if (options.json) {
     const std::string json = toJson(record, figures);
     writeFile(base / "run.json", json.data(), json.size());

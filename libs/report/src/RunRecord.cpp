@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The run record and its JSON text.
+#include <csom/report/ClassesJson.h>
 #include <csom/report/RunRecord.h>
 
 #include <cmath>
@@ -51,17 +52,18 @@ Json scanJson(const RunScan& scan) {
 
 Json totalsJson(const RunRecord& record) {
   const ScanReport total = totals(record);
-  return {{"observations_read", record.observations_read},
-          {"observations_inserted", record.scans.size()},
-          {"points", total.points},
-          {"rejected", total.rejectedTotal()},
-          {"rejects", rejectsJson(total)},
-          {"training_points", total.training_points},
-          {"free_points", total.free_points},
-          {"free_voxels", total.free_voxels},
-          {"blocks_observed", total.blocks_observed},
-          {"blocks_filled", total.blocks_filled},
-          {"voxels_updated", total.voxels_updated}};
+  Json json = {{"observations_read", record.observations_read},
+               {"observations_inserted", record.scans.size()},
+               {"points", total.points},
+               {"rejected", total.rejectedTotal()},
+               {"rejects", rejectsJson(total)}};
+  visitReport(total, [&](const std::string& name, const auto& field) {
+    // Times are summed up under timing_ms.
+    const bool is_count = std::is_integral_v<std::decay_t<decltype(field)>>;
+    const bool is_reject = name.rfind("rejected_", 0) == 0;
+    if (is_count && !is_reject) json[name] = field;
+  });
+  return json;
 }
 
 Json refusedJson(const std::vector<RefusedObservations>& refused) {
@@ -83,19 +85,6 @@ Json timingJson(const RunRecord& record) {
   return json;
 }
 
-Json classesJson(const std::vector<ClassFigures>& classes) {
-  Json json = Json::array();
-  for (const ClassFigures& c : classes)
-    json.push_back({{"id", c.id},
-                    {"name", c.name},
-                    {"color", c.color},
-                    {"voxels", c.voxels},
-                    {"volume_m3", c.volume},
-                    {"share", c.share},
-                    {"mean_probability", c.mean_probability}});
-  return json;
-}
-
 Json mapJson(const MapFigures& figures) {
   Json bounds;  // null for an empty map
   if (!figures.bounds.isEmpty())
@@ -108,10 +97,23 @@ Json mapJson(const MapFigures& figures) {
           {"memory_bytes", figures.memory_bytes},
           {"bounds", bounds},
           {"digest", figures.digest},
-          {"classes", classesJson(figures.classes)}};
+          {"classes", classesToJson(figures.classes)}};
 }
 
 }  // namespace
+
+Json classesToJson(const std::vector<ClassFigures>& classes) {
+  Json json = Json::array();
+  for (const ClassFigures& c : classes)
+    json.push_back({{"id", c.id},
+                    {"name", c.name},
+                    {"color", c.color},
+                    {"voxels", c.voxels},
+                    {"volume_m3", c.volume},
+                    {"share", c.share},
+                    {"mean_probability", c.mean_probability}});
+  return json;
+}
 
 std::vector<Parameter> parametersOf(const Options& options) {
   std::vector<Parameter> parameters;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Draws a map from above: the raster of columns, a scale bar, the axes and a legend.
+#include <csom/report/Format.h>
 #include <csom/report/TopView.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 
 #include "Canvas.h"
 #include "ColumnGrid.h"
-#include "Format.h"
 #include "Legend.h"
 #include "Palette.h"
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 
 namespace csom {
 
@@ -39,5 +40,32 @@ struct ScanReport {
   std::size_t rejectedTotal() const;
   ScanReport& operator+=(const ScanReport& other);
 };
+
+/// "rejected_too_near", …: the name of a count of `rejected` where names have no hyphens.
+std::string rejectedName(RejectReason reason);
+
+/// Calls `visitor(name, field_of_each…)` for every count and time of one or several reports, each a
+/// `ScanReport&` or `const ScanReport&`. Whatever reads, writes or adds reports goes through here.
+template <class Visitor, class... Reports>
+void visitReports(Visitor&& visitor, Reports&... reports) {
+  visitor("points", reports.points...);
+  for (std::size_t i = 0; i < kRejectReasons; ++i)
+    visitor(rejectedName(static_cast<RejectReason>(i)), reports.rejected[i]...);
+  visitor("training_points", reports.training_points...);
+  visitor("free_points", reports.free_points...);
+  visitor("free_voxels", reports.free_voxels...);
+  visitor("blocks_observed", reports.blocks_observed...);
+  visitor("blocks_filled", reports.blocks_filled...);
+  visitor("voxels_updated", reports.voxels_updated...);
+  visitor("prepare_ms", reports.prepare_ms...);
+  visitor("infer_ms", reports.infer_ms...);
+  visitor("commit_ms", reports.commit_ms...);
+}
+
+/// Calls `visitor(name, field)` for every count (std::size_t) and time (double) of a report.
+template <class Report, class Visitor>
+void visitReport(Report& report, Visitor&& visitor) {
+  visitReports(visitor, report);
+}
 
 }  // namespace csom

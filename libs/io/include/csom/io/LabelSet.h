@@ -32,10 +32,12 @@ struct LabelClass {
 ///     classes:
 ///       - {id: 0, name: free, color: [255, 255, 255], free: true}
 ///       - {id: 1, name: car, color: [100, 150, 245]}
-///     raw:            # raw id of the data set → class id or `ignore`; without this key raw ids
-///     are
-///       0: ignore     # class ids
+///     raw:
+///       0: ignore
 ///       10: 1
+///
+/// `raw` gives each raw id of the data set its class id, or `ignore`; without it raw ids are class
+/// ids.
 class LabelSet {
  public:
   /// What a raw id of a data set stands for. Ignored: the label set says that such points are not

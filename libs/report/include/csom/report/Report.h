@@ -3,6 +3,7 @@
 #pragma once
 
 #include <csom/io/MapFile.h>
+#include <csom/report/MapFigures.h>
 #include <csom/report/RunRecord.h>
 #include <csom/report/TopView.h>
 
@@ -17,9 +18,10 @@ struct ReportOptions {
   TopViewOptions top_view;  ///< its `up` is that of the record
 };
 
-/// Writes the files into `folder`, which is created if missing. Each file is complete or absent:
-/// it is written beside its place and then renamed. Throws FileError.
-void writeReport(const RunRecord& record, const MapDocument& document, const std::string& folder,
-                 const ReportOptions& options = {});
+/// `figures` are those of the document, see figuresOf(). Writes the files into `folder`, which is
+/// created if missing. Each file is complete or absent: it is written beside its place and then
+/// renamed. Throws FileError.
+void writeReport(const RunRecord& record, const MapDocument& document, const MapFigures& figures,
+                 const std::string& folder, const ReportOptions& options = {});
 
 }  // namespace csom
