@@ -232,5 +232,34 @@ TEST(RawlogWriter, WritesTheBytesOfMrpt) {
             readBytes(folder / "mrpt.rawlog"));
 }
 
+TEST(RawlogReader, AnEntryThatClaimsTooMuchIsDamagedWhereverItStands) {
+  const TempFolder folder;
+  const std::string whole =
+      readBytes(writePlainLog(folder / "whole.rawlog", {odometry(1, 0, 0, 0)}));
+  std::string huge = whole;
+  const std::size_t at = huge.find(bytesOf(std::uint32_t{6}) + "wheels");
+  ASSERT_NE(at, std::string::npos);
+  huge.replace(at, 4, bytesOf(std::uint32_t{0x7fffffff}));
+  for (const std::string& before : {std::string(), whole}) {
+    writeBytes(folder / "huge.rawlog", before + huge);
+    RawlogReader reader(folder / "huge.rawlog");
+    readAll(reader);
+    EXPECT_FALSE(reader.end().complete);
+    EXPECT_THAT(reader.end().reason,
+                testing::HasSubstr("is damaged: it claims to be larger than the file can hold"));
+  }
+}
+
+TEST(RawlogReader, NamesOfClassesAreMadePrintable) {
+  const TempFolder folder;
+  const std::string bytes = readBytes(writePlainLog(folder / "whole.rawlog", {wallCloud(1)}));
+  const std::string name = "evil\x1b[2J";
+  writeBytes(folder / "evil.rawlog",
+             bytes + static_cast<char>(0x80 + name.size()) + name + std::string(9, '\0'));
+  RawlogReader reader(folder / "evil.rawlog");
+  readAll(reader);
+  EXPECT_THAT(reader.end().reason, testing::HasSubstr("entry 1 (evil?[2J) is damaged"));
+}
+
 }  // namespace
 }  // namespace csom::test
