@@ -107,6 +107,37 @@ TEST(MappingRun, RefusesAndCountsWhatItCannotUse) {
               testing::Contains(HasSubstr("refused 1 CObservationPointCloud: no pose")));
 }
 
+TEST(MappingRun, EveryDamagedObservationHasItsOwnReason) {
+  const TempFolder folder;
+  Entries entries = driveEntries(2);
+  auto empty = mrpt::obs::CObservationPointCloud::Create();
+  empty->timestamp = mrpt::Clock::fromDouble(100.5);
+  entries.push_back(empty);
+  entries.push_back(robotPose(200, mrpt::poses::CPose3D(1e14, 0, 0, 0, 0, 0)));
+  entries.push_back(wallCloud(200));
+  const auto result = mapped(folder, {writeLog(folder / "a.rawlog", entries)});
+  ASSERT_EQ(result.refused.size(), 2u) << "not both with the reason of the first";
+  for (const auto& [what, count] : result.refused) {
+    EXPECT_THAT(what.second, testing::StartsWith("damaged: "));
+    EXPECT_EQ(count, 1u) << what.second;
+  }
+}
+
+TEST(MappingRun, SwitchedOffInsertionIsSaid) {
+  const TempFolder folder;
+  const auto log = writeLog(folder / "a.rawlog", driveEntries(2));
+  const std::string off =
+      "[MappingApplication_semanticContinuousMap_00_creationOpts]\n"
+      "enableObservationInsertion = false";
+  try {
+    mapped(folder, {log}, off);
+    ADD_FAILURE() << "no error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("2 CObservationPointCloud: the map's "
+                                        "enableObservationInsertion is false"));
+  }
+}
+
 TEST(MappingRun, CountsPointsThatItCannotUse) {
   const TempFolder folder;
   auto cloud = wallCloud(100);
