@@ -87,6 +87,10 @@ RunRecord recordOf(const MapArguments& arguments, const MappingResult& result, d
   const auto& scans = result.map->scans();
   for (std::size_t i = 0; i < scans.size(); ++i)
     record.scans.push_back({scans[i], result.insert_ms.at(i)});
+  const InsertionStatistics& statistics = result.map->statistics();
+  record.unused = statistics.unused;
+  record.label_rejects = {statistics.labels.missing, statistics.labels.unknown,
+                          statistics.labels.ignored, statistics.labels.ambiguous};
   for (const auto& [what, count] : result.refused)
     record.refused.push_back({what.first, what.second, count});
   record.warnings = result.warnings;
@@ -105,12 +109,12 @@ MapDocument documentOf(const RunRecord& record, const MappingResult& result) {
 
 void printSummary(const RunRecord& record, const MapFigures& figures, const OutputFolder& folder,
                   bool html) {
-  const ScanReport sum = totals(record);
   std::printf("scans     %s with %s points, poses: %s\n", formatCount(record.scans.size()).c_str(),
-              formatCount(sum.points).c_str(), detail::printable(record.pose_source).c_str());
-  if (sum.rejectedTotal() > 0)
+              formatCount(pointsRead(record)).c_str(),
+              detail::printable(record.pose_source).c_str());
+  if (pointsRejected(record) > 0)
     std::printf("rejected  %s points (reasons in run.json)\n",
-                formatCount(sum.rejectedTotal()).c_str());
+                formatCount(pointsRejected(record)).c_str());
   for (const RefusedObservations& refused : record.refused)
     std::printf("unused    %s %s: %s\n", formatCount(refused.count).c_str(),
                 detail::printable(refused.observation_class).c_str(),

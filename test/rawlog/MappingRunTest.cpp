@@ -147,10 +147,11 @@ TEST(MappingRun, CountsPointsThatItCannotUse) {
   points.setPointIntensity(2, 77.0f);
   points.setPointIntensity(3, 1.5f);
   const auto result = mapped(folder, {writeLog(folder / "a.rawlog", {robotPose(100, {}), cloud})});
-  EXPECT_THAT(
-      result.warnings,
-      testing::ElementsAre("rejected 2 points: non-finite",
-                           "left out 2 points whose label is not in the label set 'walls'"));
+  EXPECT_THAT(result.warnings,
+              testing::ElementsAre(
+                  "rejected 2 points: non-finite",
+                  "left out 2 points whose label is not in the label set 'walls'; if their "
+                  "intensities are no labels, set point_labels = none"));
 }
 
 TEST(MappingRun, MapsWhatACutOffLogHolds) {

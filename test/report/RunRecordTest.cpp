@@ -68,11 +68,28 @@ TEST(RunRecordTest, TotalsAddUp) {
   EXPECT_EQ(run["totals"]["points"], 2000);
   EXPECT_EQ(run["totals"]["rejected"], 50);
   EXPECT_EQ(run["totals"]["rejects"][toString(RejectReason::TooFar)], 50);
-  EXPECT_EQ(run["totals"]["rejects"].size(), kRejectReasons);
+  EXPECT_EQ(run["totals"]["rejects"].size(), kRejectReasons + 4);  // and four about labels
   EXPECT_EQ(run["refused"],
             json::parse(R"([{"observation_class": "CObservationGPS", "reason": "no range data",
                              "count": 5}])"));
   EXPECT_EQ(run["warnings"].size(), 1u);
+}
+
+TEST(RunRecordTest, PointsDroppedBeforeTheMapSawThemAreRejectsToo) {
+  RunRecord record = test::sampleRecord();
+  record.label_rejects = {1, 20, 300, 4000};
+  record.unused.points = 7;
+  record.unused.rejected[0] = 7;
+  const json totals = parsed(record)["totals"];
+  EXPECT_EQ(totals["points"], 2000 + 4321 + 7);
+  EXPECT_EQ(totals["rejected"], 50 + 4321 + 7);
+  EXPECT_EQ(totals["rejects"]["no-label"], 1);
+  EXPECT_EQ(totals["rejects"]["unknown-label"], 20);
+  EXPECT_EQ(totals["rejects"]["ignored-label"], 300);
+  EXPECT_EQ(totals["rejects"]["several-labels"], 4000);
+  std::size_t sum = 0;
+  for (const auto& [reason, count] : totals["rejects"].items()) sum += count.get<std::size_t>();
+  EXPECT_EQ(totals["rejected"], sum);
 }
 
 TEST(RunRecordTest, TellsHowTheRunCameAbout) {

@@ -174,10 +174,16 @@ MapDocument loadMap(const std::string& file) {
 
   const std::string digest = std::exchange(document.meta[detail::kDigestKey], "");
   document.meta.erase(detail::kDigestKey);
+  const std::string checksum = std::exchange(document.meta[detail::kChecksumKey], "");
+  document.meta.erase(detail::kChecksumKey);
   const std::string found = mapDigest(document.map);
   if (found != digest)
     throw FileError(
         file, "its chunks have digest " + found + ", table meta says '" + digest + "'" + kDamaged);
+  if (detail::descriptionChecksum(document) != checksum)
+    throw FileError(file, std::string("its options, label set, scans or meta have been changed: "
+                                      "their checksum is not '") +
+                              checksum + "'" + kDamaged);
   return document;
 }
 

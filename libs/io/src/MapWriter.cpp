@@ -20,9 +20,11 @@ using detail::Statement;
 void writeMeta(const Database& database, const MapDocument& document) {
   Statement insert(database, "INSERT INTO meta VALUES (?, ?)");
   for (const auto& [key, value] : document.meta) {
-    if (key != detail::kDigestKey) insert.bind(1, key).bind(2, value).run();
+    if (key != detail::kDigestKey && key != detail::kChecksumKey)
+      insert.bind(1, key).bind(2, value).run();
   }
   insert.bind(1, detail::kDigestKey).bind(2, mapDigest(document.map)).run();
+  insert.bind(1, detail::kChecksumKey).bind(2, detail::descriptionChecksum(document)).run();
 }
 
 void writeOptions(const Database& database, const Options& options) {

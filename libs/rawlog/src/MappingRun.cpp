@@ -215,10 +215,12 @@ void MappingRun::warnAboutPoints() {
   const LabelCounts& labels = statistics.labels;
   if (labels.unknown > 0)
     warn("left out " + counted(labels.unknown, "points whose label is not in the label set ") +
-         set);
+         set + "; if their intensities are no labels, set point_labels = none");
   if (labels.ambiguous > 0)
     warn("left out " + counted(labels.ambiguous, "points with several labels"));
-  if (labels.missing > 0) warn("left out " + counted(labels.missing, "points without a label"));
+  if (labels.missing > 0)
+    warn("left out " + counted(labels.missing, "points without a label") +
+         "; unlabelled_class or scan_2d_class can give them a class");
 }
 
 void MappingRun::finish() {

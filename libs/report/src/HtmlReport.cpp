@@ -74,8 +74,8 @@ void writeFigure(std::ostream& page, const std::string& name, const std::string&
 void writeFigures(std::ostream& page, const RunRecord& record, const MapFigures& figures) {
   page << "<dl class=\"figures\">\n";
   writeFigure(page, "Observations", formatCount(record.scans.size()));
-  writeFigure(page, "Points", formatCount(totals(record).points));
-  writeFigure(page, "Points rejected", formatCount(totals(record).rejectedTotal()));
+  writeFigure(page, "Points", formatCount(pointsRead(record)));
+  writeFigure(page, "Points rejected", formatCount(pointsRejected(record)));
   writeFigure(page, "Occupied voxels", formatCount(figures.occupied_voxels));
   writeFigure(page, "Free voxels", formatCount(figures.free_voxels));
   writeFigure(page, "Map in memory", formatBytes(figures.memory_bytes));
@@ -162,24 +162,31 @@ const char* inWords(RejectReason reason) {
     case RejectReason::OutsideIndexRange:
       return "were too far from the map’s origin to be stored";
     case RejectReason::BeamTooLong:
-      return "so far away that free space along the beam would take more than 8192 steps";
+      return "were so far away that free space along the beam would take more than 8192 steps";
   }
   return "";
 }
 
-void writeRejects(std::ostream& page, const ScanReport& total) {
-  if (total.rejectedTotal() == 0) {
+void writeRejects(std::ostream& page, const RunRecord& record) {
+  const std::size_t rejected = pointsRejected(record);
+  if (rejected == 0) {
     page << "<p>No point was rejected.</p>\n";
     return;
   }
-  page << "<p>" << formatCount(total.rejectedTotal(), "point") << " ("
-       << formatShare(static_cast<double>(total.rejectedTotal()) /
-                      static_cast<double>(std::max<std::size_t>(total.points, 1)))
+  page << "<p>" << formatCount(rejected, "point") << " ("
+       << formatShare(static_cast<double>(rejected) /
+                      static_cast<double>(std::max<std::size_t>(pointsRead(record), 1)))
        << ") did not go into the map:</p>\n<ul>\n";
+  const auto list = [&](std::size_t count, const char* reason) {
+    if (count > 0) page << "<li>" << formatCount(count) << " " << reason << "</li>\n";
+  };
+  const ScanReport total = totals(record);
   for (std::size_t i = 0; i < kRejectReasons; ++i)
-    if (total.rejected[i] > 0)
-      page << "<li>" << formatCount(total.rejected[i]) << " "
-           << inWords(static_cast<RejectReason>(i)) << "</li>\n";
+    list(total.rejected[i], inWords(static_cast<RejectReason>(i)));
+  list(record.label_rejects.ignored, "had a label that the label set ignores");
+  list(record.label_rejects.unknown, "had a label that the label set does not know");
+  list(record.label_rejects.missing, "had no label");
+  list(record.label_rejects.ambiguous, "had several labels");
   page << "</ul>\n";
 }
 
@@ -250,7 +257,7 @@ std::string htmlReport(const RunRecord& record, const MapFigures& figures,
   writeClasses(page, figures);
   writeTiming(page, record);
   page << "<h2>What was left out</h2>\n";
-  writeRejects(page, totals(record));
+  writeRejects(page, record);
   writeRefused(page, record);
   writeWarnings(page, record.warnings);
   writeOrigin(page, record, figures);

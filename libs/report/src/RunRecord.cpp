@@ -54,14 +54,19 @@ Json totalsJson(const RunRecord& record) {
   const ScanReport total = totals(record);
   Json json = {{"observations_read", record.observations_read},
                {"observations_inserted", record.scans.size()},
-               {"points", total.points},
-               {"rejected", total.rejectedTotal()},
-               {"rejects", rejectsJson(total)}};
+               {"points", pointsRead(record)},
+               {"rejected", pointsRejected(record)}};
+  Json rejects = rejectsJson(total);
+  rejects["no-label"] = record.label_rejects.missing;
+  rejects["unknown-label"] = record.label_rejects.unknown;
+  rejects["ignored-label"] = record.label_rejects.ignored;
+  rejects["several-labels"] = record.label_rejects.ambiguous;
+  json["rejects"] = rejects;
   visitReport(total, [&](const std::string& name, const auto& field) {
     // Times are summed up under timing_ms.
     const bool is_count = std::is_integral_v<std::decay_t<decltype(field)>>;
     const bool is_reject = name.rfind("rejected_", 0) == 0;
-    if (is_count && !is_reject) json[name] = field;
+    if (is_count && !is_reject && name != "points") json[name] = field;
   });
   return json;
 }
@@ -143,9 +148,17 @@ std::string toText(const Parameter& parameter) {
 }
 
 ScanReport totals(const RunRecord& record) {
-  ScanReport sum;
+  ScanReport sum = record.unused;
   for (const RunScan& scan : record.scans) sum += scan.record.report;
   return sum;
+}
+
+std::size_t pointsRead(const RunRecord& record) {
+  return totals(record).points + record.label_rejects.total();
+}
+
+std::size_t pointsRejected(const RunRecord& record) {
+  return totals(record).rejectedTotal() + record.label_rejects.total();
 }
 
 std::string toJson(const RunRecord& record, const MapFigures& figures) {

@@ -43,6 +43,16 @@ struct RefusedObservations {
   std::size_t count = 0;
 };
 
+/// Points that were dropped for their label, before the map saw them.
+struct LabelRejects {
+  std::size_t missing = 0;    ///< had none
+  std::size_t unknown = 0;    ///< not in the label set
+  std::size_t ignored = 0;    ///< the label set says so
+  std::size_t ambiguous = 0;  ///< several labels at once
+
+  std::size_t total() const { return missing + unknown + ignored + ambiguous; }
+};
+
 /// Filled by the one who runs; no invariants, nothing is computed behind one's back.
 struct RunRecord {
   std::string program_version;
@@ -56,13 +66,18 @@ struct RunRecord {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   std::size_t observations_read = 0;  ///< inserted and refused ones
   std::vector<RunScan> scans;
+  ScanReport unused;           ///< sum over the observations of which no point could be used
+  LabelRejects label_rejects;  ///< over all observations
   std::vector<RefusedObservations> refused;
   std::vector<std::string> warnings;
   double wall_seconds = 0;
 };
 
-/// Sum over the scans.
+/// Sum over the scans, and over the observations of which no point could be used.
 ScanReport totals(const RunRecord& record);
+/// All points of the observations that the map takes, and those of them that did not go in.
+std::size_t pointsRead(const RunRecord& record);
+std::size_t pointsRejected(const RunRecord& record);
 
 /// The text of run.json (docs/report.md lists its keys). Numbers are the shortest that read back to
 /// the same value; what is not finite becomes null, bytes that are not UTF-8 become U+FFFD.
