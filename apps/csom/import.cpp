@@ -41,9 +41,11 @@ ImportProgress shownBy(Progress& progress) {
 void printSummary(const ImportSummary& summary, const std::string& rawlog) {
   for (const std::string& warning : summary.warnings)
     std::fprintf(stderr, "csom: warning: %s\n", detail::printable(warning).c_str());
-  std::printf("%s: %s scans, %s points", rawlog.c_str(), formatCount(summary.scans).c_str(),
-              formatCount(summary.points).c_str());
-  if (summary.images > 0) std::printf(", %s images", formatCount(summary.images).c_str());
+  if (summary.points == 0)
+    std::fprintf(stderr, "csom: warning: %s holds no point\n", rawlog.c_str());
+  std::printf("%s: %s, %s", rawlog.c_str(), formatCount(summary.scans, "scan").c_str(),
+              formatCount(summary.points, "point").c_str());
+  if (summary.images > 0) std::printf(", %s", formatCount(summary.images, "image").c_str());
   std::printf("\n");
 }
 

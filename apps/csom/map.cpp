@@ -109,8 +109,8 @@ MapDocument documentOf(const RunRecord& record, const MappingResult& result) {
 
 void printSummary(const RunRecord& record, const MapFigures& figures, const OutputFolder& folder,
                   bool html) {
-  std::printf("scans     %s with %s points, poses: %s\n", formatCount(record.scans.size()).c_str(),
-              formatCount(pointsRead(record)).c_str(),
+  std::printf("scans     %s with %s, poses: %s\n", formatCount(record.scans.size()).c_str(),
+              formatCount(pointsRead(record), "point").c_str(),
               detail::printable(record.pose_source).c_str());
   if (pointsRejected(record) > 0)
     std::printf("rejected  %s points (reasons in run.json)\n",

@@ -152,9 +152,9 @@ TEST_F(BadInput, AConfigurationThatIsWrong) {
   writeBytes(config, readBytes(log) + "${" + readBytes(log));
   expectRefused(map(log), 2, HasSubstr("map.ini"));
   std::filesystem::remove(config);
-  expectRefused(map(log), 1, HasSubstr("map.ini"));
+  expectRefused(map(log), 2, HasSubstr("map.ini"));
   std::filesystem::create_directory(config);
-  expectRefused(map(log), 1, HasSubstr("map.ini"));
+  expectRefused(map(log), 2, HasSubstr("map.ini"));
 }
 
 TEST_F(BadInput, OptionsThatAreWrong) {

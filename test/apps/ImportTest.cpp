@@ -46,7 +46,7 @@ TEST(Import, AsksWhatToDoWithIrregularRows) {
   EXPECT_THAT(by_default.output, HasSubstr("2 points"));
   EXPECT_THAT(by_default.errorLines(), testing::ElementsAre(HasSubstr("line 11")));
   for (const auto& [policy, points] :
-       {std::pair{"skip", "1 points"}, {"ignore-extra", "2 points"}}) {
+       {std::pair{"skip", "1 point"}, {"ignore-extra", "2 points"}}) {
     auto with_policy = command;
     with_policy.insert(with_policy.end(), {"--irregular-rows", policy});
     const auto run = runCsom(folder.path(), with_policy);

@@ -91,7 +91,7 @@ TEST_F(SimulateTest, TruthTooFineToHoldIsAnErrorOfConfiguration) {
 }
 
 TEST_F(SimulateTest, FilesThatCannotBeReadOrWrittenFail) {
-  expectFailure(simulate(folder_ / "none.yaml"), 1, "none.yaml: cannot be read");
+  expectFailure(simulate(folder_ / "none.yaml"), 2, "none.yaml: cannot be read");
   const ProgramResult result =
       runCsom(folder_.path(), {"simulate", kRoom, "-o", folder_ / "no/folder/x.rawlog"});
   expectFailure(result, 1, "no/folder/x.rawlog: ");

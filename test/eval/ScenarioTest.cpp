@@ -168,9 +168,9 @@ TEST(Scenario, TwoSensorsOfOneLabelAreRefused) {
 TEST(Scenario, FileThatIsNoYamlOrNotThere) {
   EXPECT_THAT(errorWith(3, "truth: {resolution: 0.1"), HasSubstr("YAML"));
   EXPECT_THAT(errorWith(1, "label_set: no-such-set"), HasSubstr("no-such-set"));
-  EXPECT_THROW(loadScenario("/no/such/world.yaml"), FileError);
-  EXPECT_THROW(loadScenario(::testing::TempDir()), FileError) << "a folder";
-  EXPECT_THROW(loadScenario(ScenarioFile({}).path()), FileError) << "empty";
+  EXPECT_THROW(loadScenario("/no/such/world.yaml"), ConfigError);
+  EXPECT_THROW(loadScenario(::testing::TempDir()), ConfigError) << "a folder";
+  EXPECT_THROW(loadScenario(ScenarioFile({}).path()), ConfigError) << "empty";
   EXPECT_THROW(loadScenario(ScenarioFile({"# nothing"}).path()), ConfigError);
   EXPECT_THROW(loadScenario(ScenarioFile({"[1, 2]"}).path()), ConfigError);
 }

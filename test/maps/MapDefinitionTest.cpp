@@ -176,7 +176,7 @@ TEST_F(MapDefinition, exactlyOneMapIsNeeded) {
                    file("[MappingApplication]\nsemanticContinuousMap_count = 2\n")),
                ConfigError);
   EXPECT_THROW(CSemanticContinuousMap::definitionFromIni((folder_ / "none.ini").string()),
-               FileError);
+               ConfigError);
 }
 
 TEST_F(MapDefinition, countsAreAddedUpNotBelieved) {

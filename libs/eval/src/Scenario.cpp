@@ -30,7 +30,8 @@ YAML::Node parseFile(const std::string& file) {
   std::ostringstream text;
   std::ifstream stream(file);
   if (std::filesystem::is_directory(file) || !(text << stream.rdbuf()))
-    throw FileError(file, "cannot be read, or is empty; give a world file (see config/worlds)");
+    throw ConfigError(file +
+                      ": cannot be read, or is empty; give a world file (see config/worlds)");
   try {
     return YAML::Load(text.str());
   } catch (const YAML::Exception& error) {

@@ -208,7 +208,7 @@ CSemanticContinuousMap::CSemanticContinuousMap(const TMapDefinition& definition)
 CSemanticContinuousMap::TMapDefinition CSemanticContinuousMap::definitionFromIni(
     const std::string& file, const std::string& application_section) {
   // CConfigFile takes a missing file for an empty one.
-  if (!std::ifstream(file)) throw FileError(file, "cannot be read");
+  if (!std::ifstream(file)) throw ConfigError(file + ": no such file, or it cannot be read");
   const mrpt::config::CConfigFile ini(file);
 
   IniSection section(ini, application_section);

@@ -48,7 +48,7 @@ bool tellsPose(const mrpt::obs::CObservation& observation) {
 }
 
 CSemanticContinuousMap::TMapDefinition definitionOf(const std::string& file) {
-  if (std::filesystem::is_directory(file)) throw FileError(file, "is a folder, not an ini file");
+  if (std::filesystem::is_directory(file)) throw ConfigError(file + ": is a folder, not an ini file");
   try {
     return CSemanticContinuousMap::definitionFromIni(file);
   } catch (const FileError&) {

@@ -100,7 +100,7 @@ struct Scenario {
   std::uint64_t seed = 1;
 };
 
-/// Reads a world file (docs/simulator.md). Throws FileError if it cannot be read, ConfigError
+/// Reads a world file (docs/simulator.md). Throws ConfigError if it cannot be read, and
 /// naming file and line if what it says is not possible; unknown keys are errors.
 Scenario loadScenario(const std::string& file);
 

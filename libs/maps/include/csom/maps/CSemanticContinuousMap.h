@@ -143,7 +143,7 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   MAP_DEFINITION_END(CSemanticContinuousMap)
 
   /// The one map that `[application_section]` of an ini file defines by a `…_count` key under any
-  /// of the registered names. Throws FileError if the file cannot be read, ConfigError if it
+  /// of the registered names. Throws ConfigError if the file cannot be read, or if it
   /// defines no map of ours or more than one.
   static TMapDefinition definitionFromIni(
       const std::string& file, const std::string& application_section = "MappingApplication");
