@@ -4,6 +4,7 @@
 
 #include <csom/core/Error.h>
 #include <csom/io/OutputFile.h>
+#include <unistd.h>
 
 #include <vector>
 
@@ -28,24 +29,50 @@ std::vector<fs::path> missingFolders(const fs::path& path) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(const std::string& path) : path_(path) {
+OutputFolder::OutputFolder(const std::string& path, const std::vector<std::string>& results)
+    : path_(path), results_(results) {
   const std::vector<fs::path> missing = missingFolders(path_);
-  create();
+  std::error_code ignored;
+  fs::create_directories(path_, ignored);
   bool writable = true;
   try {
     OutputFile(file("writable"));
   } catch (const FileError&) {
     writable = false;
   }
-  std::error_code ignored;
   for (const fs::path& folder : missing) fs::remove(folder, ignored);
   if (!writable) throw FileError(path, "no file can be written in this folder");
+  for (const std::string& name : results_) {
+    if (fs::is_directory(path_ / name, ignored))
+      throw FileError(file(name), "is a folder, but a result of that name is to be written");
+  }
 }
 
-void OutputFolder::create() const {
+StagedResults::StagedResults(const OutputFolder& target)
+    : target_(target), path_(target.path() / ("unfinished-" + std::to_string(::getpid()))) {
+  created_ = missingFolders(path_);
   std::error_code error;
   fs::create_directories(path_, error);
   if (error) throw FileError(path_.string(), "cannot be created: " + error.message());
+}
+
+StagedResults::~StagedResults() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+  // Those that hold results stay: only an empty folder can be removed.
+  for (const fs::path& folder : created_) fs::remove(folder, ignored);
+}
+
+void StagedResults::commit() {
+  for (const std::string& name : target_.results()) {
+    std::error_code error;
+    if (fs::exists(path_ / name, error)) {
+      fs::rename(path_ / name, target_.path() / name, error);
+    } else {
+      fs::remove(target_.path() / name, error);
+    }
+    if (error) throw FileError(target_.file(name), "cannot be replaced: " + error.message());
+  }
 }
 
 }  // namespace csom

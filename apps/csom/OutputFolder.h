@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace csom {
 
@@ -11,17 +12,40 @@ namespace csom {
 /// that creates is removed again, so that a run that fails or is killed leaves nothing behind.
 class OutputFolder {
  public:
-  /// Throws FileError if the folder cannot be created or written.
-  explicit OutputFolder(const std::string& path);
-
-  /// Creates the folder with its parents. Throws FileError.
-  void create() const;
+  /// `results`: the names of all files that the command may write into it. Throws FileError if the
+  /// folder cannot be created or written, or if a result has the name of a folder.
+  OutputFolder(const std::string& path, const std::vector<std::string>& results);
 
   std::string file(const std::string& name) const { return (path_ / name).string(); }
-  std::string path() const { return path_.string(); }
+  const std::filesystem::path& path() const { return path_; }
+  const std::vector<std::string>& results() const { return results_; }
 
  private:
   std::filesystem::path path_;
+  std::vector<std::string> results_;
+};
+
+/// Results on their way: written into a folder of their own inside the output folder, and moved to
+/// their places together. If that never happens, they are removed.
+class StagedResults {
+ public:
+  /// Creates the output folder with its parents. Throws FileError.
+  explicit StagedResults(const OutputFolder& target);
+  ~StagedResults();
+  StagedResults(const StagedResults&) = delete;
+  StagedResults& operator=(const StagedResults&) = delete;
+
+  std::string path() const { return path_.string(); }
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+  /// Puts every result into place, and removes those of an earlier run that this one did not write.
+  /// Throws FileError.
+  void commit();
+
+ private:
+  const OutputFolder& target_;
+  std::filesystem::path path_;
+  std::vector<std::filesystem::path> created_;  ///< innermost first
 };
 
 }  // namespace csom

@@ -140,10 +140,9 @@ void runMap(const MapArguments& arguments) {
   inputs.push_back(arguments.config);
   if (request.poses && request.poses->kind != PoseChoice::Kind::RobotPose)
     inputs.push_back(request.poses->argument);
-  const OutputFolder folder(arguments.output);
+  const OutputFolder folder(arguments.output, {"run.json", "report.html", "top.png", "map.csom"});
   std::vector<std::string> outputs;
-  for (const char* name : {"map.csom", "run.json", "report.html", "top.png"})
-    outputs.push_back(folder.file(name));
+  for (const std::string& name : folder.results()) outputs.push_back(folder.file(name));
   if (!arguments.simplemap.empty()) outputs.push_back(arguments.simplemap);
   requireSeparateOutputs(outputs, inputs);
   if (!arguments.simplemap.empty()) OutputFile(arguments.simplemap);  // can it be written?
@@ -156,13 +155,14 @@ void runMap(const MapArguments& arguments) {
 
   const RunRecord record = recordOf(arguments, result, elapsed.count());
   const MapDocument document = documentOf(record, result);
-  if (!arguments.simplemap.empty()) writeSimpleMap(result.key_frames, arguments.simplemap);
-  folder.create();
-  saveMap(document, folder.file("map.csom"));
+  StagedResults results(folder);
+  saveMap(document, results.file("map.csom"));
   ReportOptions report;
   report.html = !arguments.no_html;
   const MapFigures figures = figuresOf(document);
-  writeReport(record, document, figures, folder.path(), report);
+  writeReport(record, document, figures, results.path(), report);
+  if (!arguments.simplemap.empty()) writeSimpleMap(result.key_frames, arguments.simplemap);
+  results.commit();
 
   if (arguments.json)
     std::printf("%s\n", toJson(record, figures).c_str());

@@ -185,6 +185,19 @@ TEST_F(BadInput, AnUnwritableOutput) {
   EXPECT_THAT(refused(out, {"--write-simplemap", folder / "file/x.simplemap"}),
               HasSubstr("x.simplemap"));
   EXPECT_FALSE(std::filesystem::exists(out));
+  std::filesystem::create_directories(folder / "taken/report.html");
+  EXPECT_THAT(refused(folder / "taken"), HasSubstr("report.html: is a folder"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "taken/map.csom"));
+}
+
+TEST_F(BadInput, ADiskThatFillsUpWhileResultsAreWritten) {
+  const auto run = runProgram(
+      folder.path(), "/bin/sh",
+      {"-c", "trap '' XFSZ; ulimit -f 8; exec \"$0\" map \"$1\" -c \"$2\" -o \"$3\"", CSOM_PROGRAM,
+       CSOM_SOURCE_DIR "/rawlogs/room.rawlog", CSOM_SOURCE_DIR "/config/room.ini", out});
+  EXPECT_EQ(run.exit_code, 1) << run.output;
+  EXPECT_EQ(run.errorLines().size(), 1u) << run.errors;
+  EXPECT_FALSE(std::filesystem::exists(out)) << "nothing may be left of a run that failed";
 }
 
 TEST_F(BadInput, AMapFileThatIsNoMap) {

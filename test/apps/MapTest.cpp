@@ -86,6 +86,17 @@ TEST_F(Map, ReplacesTheFilesOfAnEarlierRun) {
   EXPECT_EQ(loadMap(folder / "out/map.csom").scans.size(), 10u) << "a failed run changes nothing";
 }
 
+TEST_F(Map, LeavesNoPageOfAnEarlierRun) {
+  const std::vector<std::string> command{"map", log, "-c", config, "-o", folder / "out"};
+  ASSERT_EQ(runCsom(folder.path(), command).exit_code, 0);
+  ASSERT_TRUE(std::filesystem::exists(folder / "out/report.html"));
+  auto without_page = command;
+  without_page.emplace_back("--no-html");
+  ASSERT_EQ(runCsom(folder.path(), without_page).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/report.html"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/top.png"));
+}
+
 TEST_F(Map, HelpShowsExamples) {
   const auto run = runCsom(folder.path(), {"map", "--help"});
   EXPECT_EQ(run.exit_code, 0);
