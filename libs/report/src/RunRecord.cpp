@@ -16,6 +16,12 @@ namespace {
 // Keys stay in the order in which a reader wants them.
 using Json = nlohmann::ordered_json;
 
+/// Points that the map never saw.
+std::size_t droppedForLabel(const RunRecord& record) {
+  return record.label_rejects.total() +
+         (record.camera_labels ? record.camera_labels->points.dropped() : 0);
+}
+
 Json toJson(const Eigen::Vector3d& v) {
   return Json::array({v.x(), v.y(), v.z()});
 }
@@ -50,6 +56,18 @@ Json scanJson(const RunScan& scan) {
           {"commit_ms", record.report.commit_ms}};
 }
 
+void addCameraRejects(Json& rejects, const CameraPointCounts& points) {
+  const auto add = [&](const char* reason, std::size_t count) {
+    rejects[reason] = rejects.value(reason, std::size_t{0}) + count;
+  };
+  add("unknown-label", points.unknown);
+  add("ignored-label", points.ignored);
+  add("outside-view", points.outside_view - points.kept_unlabelled);
+  add("hidden-from-camera", points.hidden);
+  add("at-label-edge", points.at_edge);
+  add("low-confidence", points.low_confidence);
+}
+
 Json totalsJson(const RunRecord& record) {
   const ScanReport total = totals(record);
   Json json = {{"observations_read", record.observations_read},
@@ -61,6 +79,8 @@ Json totalsJson(const RunRecord& record) {
   rejects["unknown-label"] = record.label_rejects.unknown;
   rejects["ignored-label"] = record.label_rejects.ignored;
   rejects["several-labels"] = record.label_rejects.ambiguous;
+  if (record.camera_labels) addCameraRejects(rejects, record.camera_labels->points);
+  if (record.camera_labels) addCameraRejects(rejects, record.camera_labels->points);
   json["rejects"] = rejects;
   visitReport(total, [&](const std::string& name, const auto& field) {
     // Times are summed up under timing_ms.
@@ -103,6 +123,60 @@ Json mapJson(const MapFigures& figures) {
           {"bounds", bounds},
           {"digest", figures.digest},
           {"classes", classesToJson(figures.classes)}};
+}
+
+Json imagesJson(const ImageCounts& images) {
+  return {{"read", images.read},
+          {"used", images.used},
+          {"network_runs", images.network_runs},
+          {"from_cache", images.from_cache},
+          {"unused", images.unused},
+          {"refused", images.refused}};
+}
+
+Json cameraLabelsJson(const RunRecord& record) {
+  const CameraLabels& labels = *record.camera_labels;
+  const CameraPointCounts& points = labels.points;
+  const std::optional<double> added = addedShare(record);
+  Json cameras = Json::array();
+  for (const CameraSource& camera : labels.cameras)
+    cameras.push_back({{"sensor_label", camera.sensor_label},
+                       {"source", camera.source},
+                       {"images", imagesJson(camera.images)}});
+  return {{"images", imagesJson(totalImages(labels))},
+          {"scans",
+           {{"labelled", labels.scans.labelled},
+            {"without_image", labels.scans.without_image},
+            {"late", labels.scans.late}}},
+          {"points",
+           {{"labelled", points.labelled},
+            {"outside_view", points.outside_view},
+            {"hidden", points.hidden},
+            {"at_edge", points.at_edge},
+            {"low_confidence", points.low_confidence},
+            {"ignored", points.ignored},
+            {"unknown", points.unknown},
+            {"kept_unlabelled", points.kept_unlabelled}}},
+          {"seconds",
+           {{"network", labels.seconds.network},
+            {"image_decoding", labels.seconds.image_decoding},
+            {"labelling", labels.seconds.labelling},
+            {"waiting", labels.seconds.waiting}}},
+          {"added_share", added ? Json(*added) : Json()},
+          {"cameras", cameras}};
+}
+
+/// Sections that only some runs have.
+void addCameraSections(Json& json, const RunRecord& record) {
+  if (record.camera_labels) json["camera_labels"] = cameraLabelsJson(record);
+  if (record.deskew)
+    json["deskew"] = {{"deskewed", record.deskew->deskewed},
+                      {"not_needed", record.deskew->not_needed},
+                      {"not_possible", record.deskew->not_possible}};
+  if (record.registration)
+    json["registration"] = {{"scans", record.registration->scans},
+                            {"doubtful", record.registration->doubtful},
+                            {"seconds", record.registration->seconds}};
 }
 
 }  // namespace
@@ -154,32 +228,52 @@ ScanReport totals(const RunRecord& record) {
 }
 
 std::size_t pointsRead(const RunRecord& record) {
-  return totals(record).points + record.label_rejects.total();
+  return totals(record).points + droppedForLabel(record);
 }
 
 std::size_t pointsRejected(const RunRecord& record) {
-  return totals(record).rejectedTotal() + record.label_rejects.total();
+  return totals(record).rejectedTotal() + droppedForLabel(record);
+}
+
+ImageCounts totalImages(const CameraLabels& labels) {
+  ImageCounts sum;
+  for (const CameraSource& camera : labels.cameras) {
+    sum.read += camera.images.read;
+    sum.used += camera.images.used;
+    sum.network_runs += camera.images.network_runs;
+    sum.from_cache += camera.images.from_cache;
+    sum.unused += camera.images.unused;
+    sum.refused += camera.images.refused;
+  }
+  return sum;
+}
+
+std::optional<double> addedShare(const RunRecord& record) {
+  const double network = record.camera_labels ? record.camera_labels->seconds.network : 0;
+  if (!(network > 0)) return std::nullopt;
+  return (record.wall_seconds - network) / network;
 }
 
 std::string toJson(const RunRecord& record, const MapFigures& figures) {
   Json scans = Json::array();
   for (const RunScan& scan : record.scans) scans.push_back(scanJson(scan));
-  const Json json = {{"program", "csom"},
-                     {"program_version", record.program_version},
-                     {"command", record.command},
-                     {"inputs", record.inputs},
-                     {"config_file", record.config_file},
-                     {"pose_source", record.pose_source},
-                     {"up", {record.up.x(), record.up.y(), record.up.z()}},
-                     {"label_set", record.label_set},
-                     {"parameters", parametersJson(record.parameters)},
-                     {"wall_seconds", record.wall_seconds},
-                     {"totals", totalsJson(record)},
-                     {"refused", refusedJson(record.refused)},
-                     {"warnings", record.warnings},
-                     {"timing_ms", timingJson(record)},
-                     {"map", mapJson(figures)},
-                     {"scans", scans}};
+  Json json = {{"program", "csom"},
+               {"program_version", record.program_version},
+               {"command", record.command},
+               {"inputs", record.inputs},
+               {"config_file", record.config_file},
+               {"pose_source", record.pose_source},
+               {"up", {record.up.x(), record.up.y(), record.up.z()}},
+               {"label_set", record.label_set},
+               {"parameters", parametersJson(record.parameters)},
+               {"wall_seconds", record.wall_seconds},
+               {"totals", totalsJson(record)},
+               {"refused", refusedJson(record.refused)},
+               {"warnings", record.warnings},
+               {"timing_ms", timingJson(record)}};
+  addCameraSections(json, record);
+  json["map"] = mapJson(figures);
+  json["scans"] = scans;
   // nlohmann writes numbers that are not finite as null.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -6,11 +6,13 @@
 #include <csom/core/Options.h>
 #include <csom/core/ScanReport.h>
 #include <csom/io/MapFile.h>
+#include <csom/report/CameraRecord.h>
 #include <csom/report/MapFigures.h>
 
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -43,7 +45,8 @@ struct RefusedObservations {
   std::size_t count = 0;
 };
 
-/// Points that were dropped for their label, before the map saw them.
+/// Points that were dropped for their label, before the map saw them; those that cameras label are
+/// in CameraPointCounts and not here.
 struct LabelRejects {
   std::size_t missing = 0;    ///< had none
   std::size_t unknown = 0;    ///< not in the label set
@@ -69,6 +72,10 @@ struct RunRecord {
   ScanReport unused;           ///< sum over the observations of which no point could be used
   LabelRejects label_rejects;  ///< over all observations
   std::vector<RefusedObservations> refused;
+  std::optional<CameraLabels> camera_labels;       ///< nothing if no camera is configured
+  std::optional<DeskewCounts> deskew;              ///< nothing if it is switched off
+  std::optional<RegistrationRecord> registration;  ///< nothing if the poses were given
+  std::vector<CameraPicture> pictures;             ///< in order of time
   std::vector<std::string> warnings;
   double wall_seconds = 0;
 };
@@ -78,6 +85,9 @@ ScanReport totals(const RunRecord& record);
 /// All points of the observations that the map takes, and those of them that did not go in.
 std::size_t pointsRead(const RunRecord& record);
 std::size_t pointsRejected(const RunRecord& record);
+
+/// Time of the run beyond that of the network, as a share of the latter; nothing if no network ran.
+std::optional<double> addedShare(const RunRecord& record);
 
 /// The text of run.json (docs/report.md lists its keys). Numbers are the shortest that read back to
 /// the same value; what is not finite becomes null, bytes that are not UTF-8 become U+FFFD.

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What cameras gave to a run: the part of the run record about labels that come from images.
+#pragma once
+
+#include <csom/core/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace csom {
+
+/// What became of the images of one camera, or of all.
+struct ImageCounts {
+  std::size_t read = 0;          ///< all that the input holds
+  std::size_t used = 0;          ///< labelled at least one scan
+  std::size_t network_runs = 0;  ///< went through the network
+  std::size_t from_cache = 0;    ///< had their labels in the label cache
+  std::size_t unused = 0;        ///< no scan was near enough in time
+  std::size_t refused = 0;       ///< could not be used: damaged, not calibrated, …
+};
+
+/// One label source of the configuration.
+struct CameraSource {
+  std::string sensor_label;
+  std::string source;  ///< "network", "label_image", …
+  ImageCounts images;
+};
+
+struct CameraScanCounts {
+  std::size_t labelled = 0;
+  std::size_t without_image = 0;  ///< no image was near enough in time
+  std::size_t late = 0;           ///< came when what they would be paired with had gone
+};
+
+/// Points of the scans by what became of them; each is in one field, kept_unlabelled apart.
+struct CameraPointCounts {
+  std::size_t labelled = 0;
+  std::size_t outside_view = 0;    ///< in no camera's image
+  std::size_t hidden = 0;          ///< something nearer hides them from the camera
+  std::size_t at_edge = 0;         ///< near a label border where the depth jumps
+  std::size_t low_confidence = 0;  ///< dropped: the best class is not sure enough
+  std::size_t ignored = 0;         ///< the label set ignores what the pixel shows
+  std::size_t unknown = 0;         ///< the label set does not know what the pixel shows
+  /// Those of outside_view that went into the map all the same, as unlabelled.
+  std::size_t kept_unlabelled = 0;
+
+  std::size_t inView() const {
+    return labelled + hidden + at_edge + low_confidence + ignored + unknown;
+  }
+  /// Points that the map never saw.
+  std::size_t dropped() const { return inView() - labelled + outside_view - kept_unlabelled; }
+};
+
+/// Where the time went [s].
+struct CameraSeconds {
+  double network = 0;         ///< the network alone
+  double image_decoding = 0;  ///< files and JPEG to pixels
+  double labelling = 0;       ///< projection, visibility and edges
+  double waiting = 0;         ///< for labels that the map needed before they were there
+};
+
+struct CameraLabels {
+  std::vector<CameraSource> cameras;
+  CameraScanCounts scans;
+  CameraPointCounts points;
+  CameraSeconds seconds;
+};
+
+/// Sum over the cameras.
+ImageCounts totalImages(const CameraLabels& labels);
+
+/// Scans whose points were moved to where they were at one time, although the sensor itself moved.
+struct DeskewCounts {
+  std::size_t deskewed = 0;
+  std::size_t not_needed = 0;    ///< all points have the same time, or the sensor stood still
+  std::size_t not_possible = 0;  ///< the poses do not span the scan, or the points carry no times
+};
+
+/// Poses found by laying scans over one another.
+struct RegistrationRecord {
+  std::size_t scans = 0;
+  std::size_t doubtful = 0;  ///< did not fit well; their pose was extrapolated or is poor
+  double seconds = 0;
+};
+
+/// One camera frame in two pictures, each a JPEG or PNG file.
+struct CameraPicture {
+  std::string sensor_label;
+  double timestamp = 0;                    ///< of the image [s since 1970, UTC]
+  std::size_t frame = 0;                   ///< number of the image of this camera, from 0
+  std::vector<std::uint8_t> segmentation;  ///< the image tinted by class
+  std::vector<std::uint8_t> points;        ///< the points over it, in the colours of their classes
+  std::vector<ClassId> classes;            ///< those that the pictures show
+};
+
+}  // namespace csom
