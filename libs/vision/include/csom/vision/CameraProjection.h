@@ -38,11 +38,14 @@ class CameraProjection {
   const CameraCalibration& calibration() const { return calibration_; }
 
   /// Pixel of a point in the camera's optical frame (x right, y down, z forward) [m]. Nothing if
-  /// the point is behind the camera, or so far off the axis that the polynomial of the lens has
-  /// turned back there and would fold it into the image. The pixel may lie outside of the image.
+  /// the point is not finite, is behind the camera, or so far off the axis that the polynomial of
+  /// the lens has turned back there and would fold it into the image. A fisheye may see more than
+  /// a half space: for KannalaBrandt the angle alone decides, and z may be negative. The pixel may
+  /// lie outside of the image.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const;
 
-  /// True if a pixel lies in the image, its border of half a pixel included.
+  /// True if a pixel lies in the image: from half a pixel before the centre of the first pixel up
+  /// to, and without, half a pixel behind that of the last. floor(x + 0.5) is then a pixel.
   bool contains(const Eigen::Vector2d& pixel) const;
 
  private:
