@@ -20,7 +20,7 @@ constexpr ClassId kUnknownPixel = 0xfffe;  ///< the label set does not know it
 using RawToClass = std::function<ClassId(std::uint32_t raw)>;
 
 /// The best class at a pixel and how sure it is, in [0, 1]. `id` may be kIgnoredPixel or
-/// kUnknownPixel.
+/// kUnknownPixel, then `confidence` is 0.
 struct PixelClass {
   ClassId id = kUnknownPixel;
   float confidence = 0;
@@ -35,9 +35,11 @@ class SemanticImage {
   virtual cv::Size size() const = 0;
   /// Best class at a pixel, which need not be whole but must lie in the image.
   virtual PixelClass classAt(const Eigen::Vector2d& pixel) const = 0;
-  /// The same, and writes the distribution over the classes 0 … scores.size()−1: non-negative and
-  /// summing to 1, with the shares of ignored channels taken out; all 0 if classAt() has no class.
-  /// Logits are divided by `temperature` (> 0) before the softmax: above 1 is less sure.
+  /// The same class, and writes the distribution over the classes 0 … scores.size()−1: non-negative
+  /// and summing to 1, with the shares of channels without a class taken out; all 0 if classAt()
+  /// has no class. Logits are divided by `temperature` (> 0) before the softmax: above 1 is less
+  /// sure. `confidence` is the best class's share in it; that of classAt() has temperature 1.
+  /// Throws std::out_of_range if the image has a class that `scores` has no place for.
   virtual PixelClass scoresAt(const Eigen::Vector2d& pixel, double temperature,
                               std::vector<float>& scores) const = 0;
   /// Class of every pixel of the camera image: CV_16UC1 of size().
@@ -51,13 +53,16 @@ class LabelImage : public SemanticImage {
   /// Throws std::invalid_argument if `raw` is empty or of another type.
   LabelImage(const cv::Mat& raw, const RawToClass& class_of);
 
+  /// The raw ids, as they were given.
+  const cv::Mat& raw() const { return raw_; }
   cv::Size size() const override { return classes_.size(); }
   PixelClass classAt(const Eigen::Vector2d& pixel) const override;
   PixelClass scoresAt(const Eigen::Vector2d& pixel, double temperature,
                       std::vector<float>& scores) const override;
-  cv::Mat classes() const override { return classes_; }
+  cv::Mat classes() const override { return classes_.clone(); }
 
  private:
+  cv::Mat raw_;
   cv::Mat classes_;
 };
 
