@@ -76,7 +76,8 @@ struct GridPlacement {
 };
 
 /// Scores of channels on a grid, as a network puts them out, interpolated bilinearly where they are
-/// asked for.
+/// asked for; outside of the grid its border counts. The best class is that of the best channel,
+/// even if other channels together say more for another class.
 ///
 /// They are held as distances in log-score to the best channel of the cell, in steps of 1/16 and
 /// at most 255/16 = 15.9 (a probability ratio of 1e-7): one byte a channel. Images in a cache are
@@ -85,14 +86,15 @@ class ScoreImage : public SemanticImage {
  public:
   static constexpr double kStep = 1.0 / 16;
 
-  /// `distances`: CV_8UC1 with rows·channels rows: all rows of channel 0, then channel 1 …
+  /// `distances`: CV_8UC1 with rows·channels rows: all rows of channel 0, then channel 1 … A cell
+  /// whose distances are all 255 says nothing; pixels that no other cell reaches are kUnknownPixel.
   /// `class_of_channel` has one entry a channel; several channels may have the same class.
-  /// Throws std::invalid_argument if the sizes do not fit.
+  /// `distances` are shared, not copied. Throws std::invalid_argument if the sizes do not fit.
   ScoreImage(const cv::Mat& distances, std::vector<ClassId> class_of_channel, cv::Size image_size,
              const GridPlacement& placement);
 
   /// From logits: CV_32F, channels × rows × columns (three dimensions). Log-probabilities are
-  /// logits too. A cell with a value that is not finite says nothing: all its distances are 0.
+  /// logits too, −∞ among them. A cell with a NaN or +∞, or nothing but −∞, says nothing.
   static cv::Mat distancesOf(const cv::Mat& logits);
 
   const cv::Mat& distances() const { return distances_; }
@@ -103,6 +105,14 @@ class ScoreImage : public SemanticImage {
   cv::Mat classes() const override;
 
  private:
+  class Sample;
+  cv::Size gridSize() const;
+  Sample sampleAt(const Eigen::Vector2d& pixel) const;
+  PixelClass evaluate(const Eigen::Vector2d& pixel, double temperature,
+                      std::vector<float>* scores) const;
+  /// The best channel of each cell: CV_16UC1.
+  cv::Mat bestChannels() const;
+
   cv::Mat distances_;
   std::vector<ClassId> class_of_channel_;
   cv::Size image_size_;
