@@ -14,9 +14,13 @@ namespace csom {
 namespace {
 
 constexpr int kLeastWidth = 640;
-/// Of the image under the points: dark enough for dark class colours to stand out.
-constexpr double kBrightness = 0.4;
-constexpr std::array<std::uint8_t, 3> kWithoutLabel{105, 105, 105};
+/// The image under the points has little contrast and no black, for bright and dark class colours
+/// to stand out alike.
+constexpr double kContrast = 0.35;
+constexpr double kDarkest = 40;
+constexpr std::array<std::uint8_t, 3> kWithoutLabel{150, 150, 150};
+/// Of dots without a label, which gray alone would not tell from a gray class.
+constexpr double kSmaller = 0.6;
 /// cv::circle takes coordinates in units of 2^-kShift pixels.
 constexpr int kShift = 4;
 
@@ -37,6 +41,7 @@ void requireSize(const cv::Mat& image, cv::Size size) {
 struct Dot {
   Eigen::Vector2d pixel;
   double depth;
+  bool has_label;
   std::array<std::uint8_t, 3> color;
 };
 
@@ -49,9 +54,9 @@ std::vector<Dot> dotsOf(const CameraView& view, int view_number,
     const Eigen::Vector3d point = view.camera_from_points * points[i].cast<double>();
     const auto pixel = view.projection->project(point);
     if (!pixel || !view.projection->contains(*pixel)) continue;
-    const bool has_color =
-        labelled.fates[i] == PointFate::Labelled && labelled.classes[i] < colors.size();
-    dots.push_back({*pixel, point.z(), has_color ? colors[labelled.classes[i]] : kWithoutLabel});
+    const ClassId k = labelled.classes[i];
+    const bool has_label = labelled.fates[i] == PointFate::Labelled && k < colors.size();
+    dots.push_back({*pixel, point.z(), has_label, has_label ? colors[k] : kWithoutLabel});
   }
   std::stable_sort(dots.begin(), dots.end(),
                    [](const Dot& a, const Dot& b) { return a.depth > b.depth; });
@@ -61,15 +66,26 @@ std::vector<Dot> dotsOf(const CameraView& view, int view_number,
 /// Dots that nearly touch where they are dense, for scans are dense along their rows only.
 double radiusOf(cv::Size size, std::size_t dots) {
   const double area_of_dot = static_cast<double>(size.area()) / static_cast<double>(dots);
-  return std::clamp(0.35 * std::sqrt(area_of_dot), 1.5, 4.0);
+  return std::clamp(0.28 * std::sqrt(area_of_dot), 1.25, 4.0);
+}
+
+void draw(cv::Mat& picture, const Dot& dot, int scale, double radius) {
+  const auto fixed = [](double value) {
+    return static_cast<int>(std::lround(value * (1 << kShift)));
+  };
+  // Pixel centres are whole numbers before and after the enlargement.
+  const Eigen::Vector2d center = (dot.pixel.array() + 0.5) * scale - 0.5;
+  cv::circle(picture, {fixed(center.x()), fixed(center.y())},
+             fixed(dot.has_label ? radius : kSmaller * radius),
+             cv::Scalar(dot.color[2], dot.color[1], dot.color[0]), cv::FILLED, cv::LINE_AA, kShift);
 }
 
 }  // namespace
 
 cv::Mat drawSegmentation(const cv::Mat& image, const SemanticImage& labels,
                          const ClassColors& colors) {
-  cv::Mat picture = toBgr(image);
   requireSize(image, labels.size());
+  cv::Mat picture = toBgr(image);
   const cv::Mat classes = labels.classes();
   for (int y = 0; y < picture.rows; ++y) {
     for (int x = 0; x < picture.cols; ++x) {
@@ -87,29 +103,19 @@ cv::Mat drawSegmentation(const cv::Mat& image, const SemanticImage& labels,
 cv::Mat drawLabelledPoints(const cv::Mat& image, const CameraView& view, int view_number,
                            const std::vector<Eigen::Vector3f>& points,
                            const LabelledPoints& labelled, const ClassColors& colors) {
-  cv::Mat picture = toBgr(image) * kBrightness;
   const CameraCalibration& calibration = view.projection->calibration();
   requireSize(image, {calibration.width, calibration.height});
   if (labelled.fates.size() != points.size() || labelled.views.size() != points.size() ||
       labelled.classes.size() != points.size())
     throw std::invalid_argument("labels and points differ in number");
 
+  cv::Mat picture;
+  toBgr(image).convertTo(picture, -1, kContrast, kDarkest);
   const int scale = std::max(1, (kLeastWidth + image.cols - 1) / image.cols);
   cv::resize(picture, picture, {}, scale, scale, cv::INTER_LINEAR);
   const std::vector<Dot> dots = dotsOf(view, view_number, points, labelled, colors);
-  const double unit = 1 << kShift;
-  const int radius =
-      dots.empty() ? 0
-                   : static_cast<int>(std::lround(radiusOf(picture.size(), dots.size()) * unit));
-  for (const Dot& dot : dots) {
-    // Pixel centres are whole numbers before and after the enlargement.
-    const Eigen::Vector2d center = ((dot.pixel.array() + 0.5) * scale - 0.5) * unit;
-    cv::circle(
-        picture,
-        {static_cast<int>(std::lround(center.x())), static_cast<int>(std::lround(center.y()))},
-        radius, cv::Scalar(dot.color[2], dot.color[1], dot.color[0]), cv::FILLED, cv::LINE_AA,
-        kShift);
-  }
+  const double radius = dots.empty() ? 0 : radiusOf(picture.size(), dots.size());
+  for (const Dot& dot : dots) draw(picture, dot, scale, radius);
   return picture;
 }
 

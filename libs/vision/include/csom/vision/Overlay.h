@@ -21,11 +21,11 @@ cv::Mat drawSegmentation(const cv::Mat& image, const SemanticImage& labels,
                          const ClassColors& colors);
 
 /// The darkened image with a dot for each point of which this view decided: in the colour of its
-/// class if it was labelled, gray if it was hidden, at an edge, or dropped. Points that another
-/// view labelled are left out, since they may be hidden in this one. Near points cover far ones;
-/// dots are larger where there are fewer. Images less than 640 pixels wide are enlarged by a whole
-/// factor. Returns CV_8UC3 BGR. Throws std::invalid_argument if the image has another type, or
-/// another size than the view, or if `labelled` is not about these points.
+/// class if it was labelled, small and gray if it was hidden, at an edge, or dropped. Points that
+/// another view labelled are left out, since they may be hidden in this one. Near points cover far
+/// ones; dots are larger where there are fewer. Images less than 640 pixels wide are enlarged by a
+/// whole factor. Returns CV_8UC3 BGR. Throws std::invalid_argument if the image has another type,
+/// or another size than the view, or if `labelled` is not about these points.
 cv::Mat drawLabelledPoints(const cv::Mat& image, const CameraView& view, int view_number,
                            const std::vector<Eigen::Vector3f>& points,
                            const LabelledPoints& labelled, const ClassColors& colors);
