@@ -79,7 +79,7 @@ TEST(DirichletVoxel, FollowsEquation22) {
   const std::array<std::uint8_t, 3> classes{0, 2, 5};
   const std::array<std::uint32_t, 3> counts{4096, 3 * 4096, 2048};
   const double prior = 0.001;
-  const DirichletVoxel voxel(8, prior, classes.data(), counts.data(), 3);
+  const DirichletVoxel voxel(8, prior, 0, classes.data(), counts.data(), 3);
   const double total = 4.5 + 8 * prior;
   EXPECT_EQ(voxel.state(), VoxelState::Occupied);
   EXPECT_EQ(voxel.mostLikelyClass(), 2);
@@ -100,12 +100,29 @@ TEST(DirichletVoxel, FollowsEquation22) {
 TEST(DirichletVoxel, TiesGoToTheLowerClassAndUnknownIsUniform) {
   const std::array<std::uint8_t, 2> classes{0, 1};
   const std::array<std::uint32_t, 2> counts{7, 7};
-  EXPECT_EQ(DirichletVoxel(2, 0.001, classes.data(), counts.data(), 2).state(), VoxelState::Free);
-  const DirichletVoxel unknown(4, 0.001);
+  EXPECT_EQ(DirichletVoxel(2, 0.001, 0, classes.data(), counts.data(), 2).state(), VoxelState::Free);
+  const DirichletVoxel unknown(4, 0.001, 0);
   EXPECT_FALSE(unknown.known());
   EXPECT_EQ(unknown.state(), VoxelState::Unknown);
   EXPECT_DOUBLE_EQ(unknown.probability(3), 0.25);
   EXPECT_NEAR(unknown.entropy(), 1.0, 1e-12);
+}
+
+TEST(Equations, AnyLabelOutvotesTheClassOfUnlabelledPoints) {
+  constexpr ClassId kUnlabelled = 3;
+  const auto classOf = [&](std::array<std::uint32_t, 4> counts) {
+    const std::array<std::uint8_t, 4> classes{0, 1, 2, kUnlabelled};
+    return DirichletVoxel(4, 0.001, kUnlabelled, classes.data(), counts.data(), 4)
+        .mostLikelyClass();
+  };
+  EXPECT_EQ(classOf({0, 0, 1, 1000}), 2);
+  EXPECT_EQ(classOf({0, 5, 6, 1000}), 2);
+  EXPECT_EQ(classOf({0, 6, 6, 1000}), 1) << "ties: the lower id";
+  EXPECT_EQ(classOf({0, 0, 0, 1000}), kUnlabelled);
+  // What was hit but not recognised says as much against free space as a label.
+  EXPECT_EQ(classOf({700, 0, 1, 1000}), 2);
+  EXPECT_EQ(classOf({1001, 0, 1, 1000}), kFreeClass);
+  EXPECT_EQ(classOf({1000, 0, 0, 1000}), kFreeClass);
 }
 
 TEST(Counts, SumsSaturate) {

@@ -24,7 +24,21 @@ VoxelState DirichletVoxel::state() const {
 
 ClassId DirichletVoxel::mostLikelyClass() const {
   if (!known()) return kFreeClass;
+  if (unlabelled_ != 0) return mostLikelyLabel();
   return classes_[std::max_element(counts_, counts_ + size_) - counts_];
+}
+
+ClassId DirichletVoxel::mostLikelyLabel() const {
+  std::uint64_t best_count = 0;
+  ClassId best = unlabelled_;
+  for (int i = 0; i < size_; ++i) {
+    if (classes_[i] == kFreeClass || classes_[i] == unlabelled_ || counts_[i] <= best_count)
+      continue;
+    best_count = counts_[i];
+    best = classes_[i];
+  }
+  const std::uint64_t occupied = best_count + count(unlabelled_);
+  return count(kFreeClass) >= occupied ? kFreeClass : best;
 }
 
 std::uint32_t DirichletVoxel::count(ClassId k) const {

@@ -1,52 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <csom/core/EnumWords.h>
 #include <csom/core/Options.h>
 #include <csom/core/types.h>
 
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <utility>
 
 namespace csom {
 
+using detail::EnumWords;
+using detail::parseWord;
+using detail::wordOf;
+
 namespace {
 
-template <class Enum, std::size_t N>
-using Words = std::array<std::pair<Enum, const char*>, N>;
-
-constexpr Words<Method, 3> kMethods{
+constexpr EnumWords<Method, 3> kMethods{
     {{Method::SeeCsom, "see-csom"}, {Method::SBki, "s-bki"}, {Method::SCsm, "s-csm"}}};
-constexpr Words<Kernel, 2> kKernels{{{Kernel::Sparse, "sparse"}, {Kernel::Linear, "linear"}}};
-constexpr Words<Neighbourhood, 2> kNeighbourhoods{
+constexpr EnumWords<Kernel, 2> kKernels{{{Kernel::Sparse, "sparse"}, {Kernel::Linear, "linear"}}};
+constexpr EnumWords<Neighbourhood, 2> kNeighbourhoods{
     {{Neighbourhood::Radius, "radius"}, {Neighbourhood::ExtendedBlock, "extended-block"}}};
-constexpr Words<FreeSpace, 3> kFreeSpaces{
+constexpr EnumWords<FreeSpace, 3> kFreeSpaces{
     {{FreeSpace::None, "none"}, {FreeSpace::Sampled, "sampled"}, {FreeSpace::Raycast, "raycast"}}};
 
 [[noreturn]] void reject(const std::string& key, const std::string& value,
                          const std::string& accepted) {
   throw OptionError(key + " = " + value + ": expected " + accepted);
-}
-
-template <class Enum, std::size_t N>
-std::string wordOf(const Words<Enum, N>& words, Enum value) {
-  for (const auto& [candidate, word] : words) {
-    if (candidate == value) return word;
-  }
-  return "invalid";
-}
-
-template <class Enum, std::size_t N>
-void parseWord(const Words<Enum, N>& words, const std::string& key, const std::string& text,
-               Enum& value) {
-  std::string accepted;
-  for (const auto& [candidate, word] : words) {
-    if (text == word) {
-      value = candidate;
-      return;
-    }
-    accepted += (accepted.empty() ? "" : " | ") + std::string(word);
-  }
-  reject(key, text, accepted);
 }
 
 void checkRange(const char* key, double value, double min, double max) {
@@ -121,6 +100,9 @@ void Options::validate() const {
   constexpr double kFar = 1e7;
   if (number_of_classes < 2 || number_of_classes > kMaxClasses)
     reject("number_of_classes", toString(number_of_classes), "2 to " + std::to_string(kMaxClasses));
+  if (unlabelled_class_id < 0 || unlabelled_class_id >= number_of_classes)
+    reject("unlabelled_class_id", toString(unlabelled_class_id),
+           "0 to " + std::to_string(number_of_classes - 1));
   checkRange("resolution", resolution, 1e-4, 1e3);
   if (block_depth < 1 || block_depth > 4) reject("block_depth", toString(block_depth), "1 to 4");
   checkRange("ds_resolution", ds_resolution, 0, kFar);
@@ -166,7 +148,7 @@ bool setOption(Options& options, const std::string& key, const std::string& text
 
 bool mergeable(const Options& a, const Options& b) {
   return a.resolution == b.resolution && a.number_of_classes == b.number_of_classes &&
-         a.prior == b.prior;
+         a.unlabelled_class_id == b.unlabelled_class_id && a.prior == b.prior;
 }
 
 }  // namespace csom

@@ -62,7 +62,8 @@ void SemanticMap::merge(const SemanticMap& other) {
   if (!mergeable(options_, other.options_)) {
     const auto describe = [](const Options& o) {
       return "resolution " + toString(o.resolution) + ", " + toString(o.number_of_classes) +
-             " classes, prior " + toString(o.prior);
+             " classes, unlabelled_class_id " + toString(o.unlabelled_class_id) + ", prior " +
+             toString(o.prior);
     };
     throw std::invalid_argument("maps differ and cannot be merged: " + describe(options_) +
                                 " against " + describe(other.options_));
@@ -75,9 +76,14 @@ void SemanticMap::clear() {
 }
 
 DirichletVoxel SemanticMap::view(const Chunk* chunk, int index_in_chunk) const {
-  if (chunk == nullptr) return {options_.number_of_classes, options_.prior};
+  const auto unlabelled = static_cast<ClassId>(options_.unlabelled_class_id);
+  if (chunk == nullptr) return {options_.number_of_classes, options_.prior, unlabelled};
   const Chunk::Entries entries = chunk->at(index_in_chunk);
-  return {options_.number_of_classes, options_.prior, entries.classes, entries.counts,
+  return {options_.number_of_classes,
+          options_.prior,
+          unlabelled,
+          entries.classes,
+          entries.counts,
           entries.size};
 }
 

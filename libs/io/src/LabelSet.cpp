@@ -14,6 +14,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr char kUnlabelled[] = "unlabelled";
+
 /// The folder of the library or program that holds this code; empty if unknown.
 fs::path folderOfThisCode() {
   Dl_info info{};
@@ -101,6 +103,30 @@ std::optional<ClassId> LabelSet::classByColor(const Color& color) const {
   });
   if (it == classes_.end()) return std::nullopt;
   return it->id;
+}
+
+LabelSet LabelSet::withUnlabelledClass() const {
+  if (unlabelledClass() != kFreeClass) return *this;
+  if (numberOfClasses() >= kMaxClasses)
+    throw ConfigError("label set '" + name_ + "' has " + std::to_string(numberOfClasses()) +
+                      " classes, so there is no room for one more, '" + kUnlabelled + "'");
+  LabelSet extended = *this;
+  Color gray{150, 150, 150};
+  const auto taken = [&] {
+    return std::any_of(classes_.begin(), classes_.end(),
+                       [&](const LabelClass& c) { return c.color == gray; });
+  };
+  while (taken()) ++gray[2];
+  const auto id = static_cast<ClassId>(numberOfClasses());
+  if (raw_.empty()) {  // raw ids were class ids: they are so still, but the new one has none
+    for (const LabelClass& c : classes_) extended.raw_[c.id] = {RawKind::Class, c.id};
+  }
+  extended.classes_.push_back({id, kUnlabelled, gray});
+  return extended;
+}
+
+ClassId LabelSet::unlabelledClass() const {
+  return classByName(kUnlabelled).value_or(kFreeClass);
 }
 
 }  // namespace csom

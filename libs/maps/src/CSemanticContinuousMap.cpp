@@ -17,6 +17,7 @@ namespace {
 
 Options withClassesOf(Options options, const LabelSet& labels) {
   options.number_of_classes = labels.numberOfClasses();
+  options.unlabelled_class_id = labels.unlabelledClass();
   return options;
 }
 
@@ -65,12 +66,14 @@ std::string addCounts(const std::string& noted, const std::string& more) {
 }
 
 /// What a file says of the points and observations that are not in the map.
-std::map<std::string, std::string> describe(const InsertionStatistics& statistics) {
+std::map<std::string, std::string> describe(const InsertionStatistics& statistics,
+                                            const std::optional<CameraStatistics>& cameras) {
   std::map<std::string, std::string> meta;
   const auto note = [&](const char* key, std::size_t count) {
     if (count > 0) meta[key] = std::to_string(count);
   };
-  note("points_without_label_dropped", statistics.labels.missing);
+  note("points_without_label_dropped",
+       statistics.labels.missing + (cameras ? cameras->pointsDropped() : 0));
   note("points_with_unknown_label_dropped", statistics.labels.unknown);
   note("points_with_ignored_label_dropped", statistics.labels.ignored);
   note("points_with_several_labels_dropped", statistics.labels.ambiguous);
@@ -93,13 +96,15 @@ CSemanticContinuousMap::CSemanticContinuousMap(const CSemanticContinuousMap& oth
       insertionOptions(other.insertionOptions),
       likelihoodOptions(other.likelihoodOptions),
       renderingOptions(other.renderingOptions),
+      labelOptions(other.labelOptions),
       announce_damaged(other.announce_damaged),
       map_(other.map_),
       labels_(other.labels_),
       scans_(other.scans_),
       statistics_(other.statistics_),
       last_insertion_(other.last_insertion_),
-      meta_(other.meta_) {
+      meta_(other.meta_),
+      adapter_(other.adapter_ ? other.adapter_->clone() : nullptr) {
   genericMapParams = other.genericMapParams;
 }
 
@@ -109,6 +114,7 @@ CSemanticContinuousMap& CSemanticContinuousMap::operator=(const CSemanticContinu
   insertionOptions = other.insertionOptions;
   likelihoodOptions = other.likelihoodOptions;
   renderingOptions = other.renderingOptions;
+  labelOptions = other.labelOptions;
   announce_damaged = other.announce_damaged;
   map_ = other.map_;
   labels_ = other.labels_;
@@ -116,14 +122,17 @@ CSemanticContinuousMap& CSemanticContinuousMap::operator=(const CSemanticContinu
   statistics_ = other.statistics_;
   last_insertion_ = other.last_insertion_;
   meta_ = other.meta_;
-  adapter_.reset();
+  adapter_ = other.adapter_ ? other.adapter_->clone() : nullptr;
   invalidatePoints();
   return *this;
 }
 
 MapDocument CSemanticContinuousMap::document() const {
-  MapDocument document{map_, labels(), scans_, meta_};
-  for (const auto& [key, value] : describe(statistics_)) {
+  CSemanticContinuousMap complete(*this);
+  complete.flush();
+  MapDocument document{std::move(complete.map_), labels(), std::move(complete.scans_),
+                       std::move(complete.meta_)};
+  for (const auto& [key, value] : describe(complete.statistics_, complete.cameraStatistics())) {
     std::string& noted = document.meta[key];
     noted = noted.empty() ? value : addCounts(noted, value);
   }
@@ -197,12 +206,12 @@ bool CSemanticContinuousMap::internal_insertObservation(
     const mrpt::obs::CObservation& observation,
     const std::optional<const mrpt::poses::CPose3D>& robot_pose) {
   const LabelRules rules = labelRules();
-  if (!adapter_) adapter_ = std::make_unique<SelfLabelledAdapter>();
   std::optional<std::vector<AdaptedScan>> adapted;
   try {
     const Eigen::Isometry3d pose = roundedPose(robot_pose.value_or(mrpt::poses::CPose3D()));
-    adapted = adapter_->adapt(observation, pose, rules);
+    adapted = adapter().adapt(observation, pose, rules);
   } catch (const std::exception& error) {
+    if (adapter_) insertScans(adapter_->takeFinished());
     // An application must not stop because of one damaged observation.
     last_insertion_ = {LastInsertion::Outcome::Damaged, oneLine(error.what())};
     noteDamaged(observation, last_insertion_.reason);
@@ -213,10 +222,44 @@ bool CSemanticContinuousMap::internal_insertObservation(
     ++statistics_.not_taken[observationName(observation)];
     return false;
   }
+  const bool used = insertScans(*adapted);
+  if (adapted->empty())
+    last_insertion_ = {LastInsertion::Outcome::Kept, {}};
+  else
+    last_insertion_ = {used ? LastInsertion::Outcome::Inserted : LastInsertion::Outcome::NoPoints,
+                       {}};
+  return used || adapted->empty();
+}
+
+ObservationAdapter& CSemanticContinuousMap::adapter() {
+  if (adapter_) return *adapter_;
+  adapter_ = makeAdapter(labelOptions, labels());
+  setLabelledScanObserver(labelled_scan_observer_);
+  return *adapter_;
+}
+
+void CSemanticContinuousMap::openLabelSources() {
+  if (auto* cameras = dynamic_cast<CameraLabelledAdapter*>(&adapter())) cameras->loadNetworks();
+}
+
+void CSemanticContinuousMap::setLabelledScanObserver(LabelledScanObserver observer) {
+  labelled_scan_observer_ = std::move(observer);
+  if (auto* cameras = dynamic_cast<CameraLabelledAdapter*>(adapter_.get()))
+    cameras->setObserver(labelled_scan_observer_);
+}
+
+void CSemanticContinuousMap::flush() {
+  if (adapter_) insertScans(adapter_->flush());
+}
+
+std::optional<CameraStatistics> CSemanticContinuousMap::cameraStatistics() const {
+  const CameraStatistics* statistics = adapter_ ? adapter_->cameraStatistics() : nullptr;
+  return statistics == nullptr ? std::nullopt : std::make_optional(*statistics);
+}
+
+bool CSemanticContinuousMap::insertScans(const std::vector<AdaptedScan>& adapted) {
   bool used = false;
-  for (const AdaptedScan& scan : *adapted) used |= insertScan(scan);
-  last_insertion_ = {used ? LastInsertion::Outcome::Inserted : LastInsertion::Outcome::NoPoints,
-                     {}};
+  for (const AdaptedScan& scan : adapted) used |= insertScan(scan);
   return used;
 }
 

@@ -67,8 +67,4 @@ std::vector<std::string> IniSection::unreadKeys() const {
   return unread;
 }
 
-void parse(const std::string& /*key*/, const std::string& text, std::string& value) {
-  value = text;
-}
-
 }  // namespace csom

@@ -4,6 +4,7 @@
 
 #include <csom/core/Error.h>
 #include <csom/core/Options.h>
+#include <csom/maps/LabelOptions.h>
 #include <mrpt/config/CConfigFileBase.h>
 
 #include <set>
@@ -43,9 +44,6 @@ class IniSection {
   std::string section_;
   std::set<std::string> read_;  ///< in lower case
 };
-
-/// Texts are values of themselves.
-void parse(const std::string& key, const std::string& text, std::string& value);
 
 template <class Value>
 void IniSection::read(const std::string& key, Value& value) {

@@ -63,6 +63,32 @@ void dump(std::ostream& out, const std::string& key, const Value& value) {
   out << key << std::string(key.size() < 40 ? 40 - key.size() : 1, ' ') << "= " << value << "\n";
 }
 
+/// A file of the ini, relative to its folder or else to the working folder, as an absolute path.
+/// Throws ConfigError if it does not exist.
+std::string existingFile(const std::string& path, const IniSection& section,
+                         const CConfigFileBase& source, const std::string& key) {
+  namespace fs = std::filesystem;
+  const fs::path beside = fs::path(fileOf(source)).parent_path() / path;
+  for (const fs::path& candidate : {beside, fs::path(path)}) {
+    std::error_code error;
+    if (fs::is_regular_file(candidate, error)) return fs::absolute(candidate).lexically_normal();
+  }
+  throw ConfigError(section.place() + ": " + key + " = " + path + ": no such file; looked for " +
+                    beside.string() + " and " + path);
+}
+
+LabelSource readLabelSource(IniSection& section, const CConfigFileBase& source) {
+  LabelSource label_source;
+  visitLabelSource(label_source, [&](const char* key, auto& field) { section.read(key, field); });
+  if (label_source.kind == LabelSource::Kind::Network) {
+    if (!label_source.network.empty())
+      label_source.network = existingFile(label_source.network, section, source, "network");
+    if (!label_source.model.empty())
+      label_source.model = existingFile(label_source.model, section, source, "model");
+  }
+  return label_source;
+}
+
 /// Reads the sections of one map and collects what nothing has read.
 class DefinitionReader {
  public:
@@ -120,6 +146,7 @@ LabelSet loadLabels(const std::string& name, const CConfigFileBase& source,
 void check(const CSemanticContinuousMap::TMapDefinition& definition, const std::string& place) {
   try {
     definition.options.validate();
+    definition.labelOpts.validate();
     LabelRules(definition.labels, definition.insertionOpts.point_labels,
                definition.insertionOpts.unlabelled_class, definition.insertionOpts.scan_2d_class);
   } catch (const OptionError& error) {
@@ -159,16 +186,32 @@ void CSemanticContinuousMap::TMapDefinition::load(const CConfigFileBase& source,
   reader.section({"_likelihoodOpts"},
                  [&](IniSection& section) { readLikelihood(section, likelihoodOpts); });
   reader.section({"_renderOpts"}, [&](IniSection& section) { readRendering(section, renderOpts); });
+  reader.section({"_labelOpts"}, [&](IniSection& section) {
+    visitLabelOptions(labelOpts, [&](const char* key, auto& field, const char*, const char*) {
+      section.read(key, field);
+    });
+  });
+  labelOpts.sources.clear();
+  for (int number = 0; number < 100; ++number) {
+    const std::string suffix =
+        std::string("_labelSource_") + (number < 10 ? "0" : "") + std::to_string(number);
+    if (!source.sectionExists(section_prefix + suffix)) break;
+    reader.section({suffix}, [&](IniSection& section) {
+      labelOpts.sources.push_back(readLabelSource(section, source));
+    });
+  }
   unknown_keys_ = reader.unknown();
 
   const std::string place = IniSection(source, section_prefix + "_*").place();
   if (!label_set.empty()) labels = loadLabels(label_set, source, place);
+  if (labelOpts.outside_view == OutsideView::Unlabelled) labels = labels.withUnlabelledClass();
   if (number_of_classes_given && options.number_of_classes != labels.numberOfClasses()) {
     throw ConfigError(place + ": number_of_classes = " + toString(options.number_of_classes) +
                       ", but label set '" + labels.name() + "' has " +
                       toString(labels.numberOfClasses()) + "; leave the key out");
   }
   options.number_of_classes = labels.numberOfClasses();
+  options.unlabelled_class_id = labels.unlabelledClass();
   check(*this, place);
 }
 
@@ -189,6 +232,12 @@ void CSemanticContinuousMap::TMapDefinition::dumpToTextStream_map_specific(
   insertionOpts.dumpToTextStream(out);
   likelihoodOpts.dumpToTextStream(out);
   renderOpts.dumpToTextStream(out);
+  visitLabelOptions(labelOpts, [&](const char* key, const auto& field, const char*, const char*) {
+    dump(out, key, toString(field));
+  });
+  for (const LabelSource& source : labelOpts.sources)
+    visitLabelSource(source,
+                     [&](const char* key, const auto& field) { dump(out, key, toString(field)); });
 }
 
 mrpt::maps::CMetricMap* CSemanticContinuousMap::internal_CreateFromMapDefinition(
@@ -202,6 +251,7 @@ CSemanticContinuousMap::CSemanticContinuousMap(const TMapDefinition& definition)
   insertionOptions = definition.insertionOpts;
   likelihoodOptions = definition.likelihoodOpts;
   renderingOptions = definition.renderOpts;
+  labelOptions = definition.labelOpts;
   labelRules();  // throws for classes that are not in the label set
 }
 

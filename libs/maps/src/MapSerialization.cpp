@@ -16,7 +16,8 @@
 namespace csom {
 namespace {
 
-constexpr std::uint8_t kVersion = 0;
+/// 1: labels from cameras.
+constexpr std::uint8_t kVersion = 1;
 
 using Texts = std::map<std::string, std::string>;
 using Counts = std::map<std::string, std::size_t>;
@@ -72,6 +73,36 @@ Options readOptions(ByteReader& in) {
     if (!setOption(options, key, text))
       throw std::runtime_error("serialised map: unknown option '" + key + "'");
   }
+  return options;
+}
+
+void write(ByteWriter& out, const LabelOptions& options) {
+  Texts texts;
+  visitLabelOptions(options, [&](const char* key, const auto& field, const char*, const char*) {
+    texts[key] = toString(field);
+  });
+  write(out, texts);
+  out.number(static_cast<std::uint64_t>(options.sources.size()));
+  for (const LabelSource& source : options.sources)
+    visitLabelSource(source, [&](const char*, const auto& field) { out.text(toString(field)); });
+}
+
+LabelOptions readLabelOptions(ByteReader& in) {
+  constexpr std::size_t kSmallest = 5 * sizeof(std::uint32_t);
+  LabelOptions options;
+  Texts texts = readTexts(in);
+  visitLabelOptions(options, [&](const char* key, auto& field, const char*, const char*) {
+    const auto text = texts.find(key);
+    if (text == texts.end()) return;
+    parse(key, text->second, field);
+    texts.erase(text);
+  });
+  if (!texts.empty())
+    throw std::runtime_error("serialised map: unknown option '" + texts.begin()->first + "'");
+  options.sources.resize(in.count(kSmallest));
+  for (LabelSource& source : options.sources)
+    visitLabelSource(source, [&](const char* key, auto& field) { parse(key, in.text(), field); });
+  options.validate();
   return options;
 }
 
@@ -222,12 +253,15 @@ void CSemanticContinuousMap::serializeTo(mrpt::serialization::CArchive& out) con
   block.number(static_cast<std::int32_t>(likelihoodOptions.decimation));
   block.number(likelihoodOptions.max_distance);
   block.number(likelihoodOptions.sigma);
+  write(block, labelOptions);
   write(block, map_.options());
   block.text(labels_->yaml());
   write(block, meta_);
   write(block, statistics_);
   write(block, scans_);
   write(block, map_.chunks());
+  block.number(static_cast<std::uint8_t>(adapter_ != nullptr));
+  if (adapter_) adapter_->writeTo(block);
 
   const std::vector<std::uint8_t>& bytes = block.bytes();
   out.WriteAs<std::uint64_t>(bytes.size());
@@ -258,6 +292,8 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
   likelihood.max_distance = block.number<double>();
   likelihood.sigma = block.number<double>();
   likelihood.validate();
+  LabelOptions label_options;
+  if (version >= 1) label_options = readLabelOptions(block);
   SemanticMap map(readOptions(block));
   std::shared_ptr<const SharedLabels> labels = SharedLabels::fromYaml(block.text());
   // Throws for classes that are not in the label set.
@@ -267,6 +303,11 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
   InsertionStatistics statistics = readStatistics(block);
   std::vector<ScanRecord> scans = readScans(block);
   readChunks(block, map);
+  std::unique_ptr<ObservationAdapter> adapter;
+  if (version >= 1 && block.flag()) {
+    adapter = makeAdapter(label_options, labels->set());
+    adapter->readFrom(block);
+  }
   if (block.left() > 0) throw std::runtime_error("serialised map: bytes after its end");
 
   // Everything is there: from here on nothing throws but setContent, before it changes anything.
@@ -276,6 +317,8 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
   insertionOptions = insertion;
   likelihoodOptions = likelihood;
   renderingOptions = rendering;
+  labelOptions = std::move(label_options);
+  adapter_ = std::move(adapter);
 }
 
 }  // namespace csom

@@ -40,12 +40,12 @@ std::optional<ClassId> classOf(const PointLabel& label, const LabelRules& rules,
   return label.id;
 }
 
+}  // namespace
+
 double secondsSince1970(const mrpt::obs::CObservation& observation) {
   if (observation.timestamp == INVALID_TIMESTAMP) return 0;
   return mrpt::Clock::toDouble(observation.timestamp);
 }
-
-}  // namespace
 
 AdaptedScan makeScan(const SensorPoints& points, const Eigen::Isometry3d& robot_pose,
                      const LabelRules& rules) {
@@ -78,5 +78,13 @@ std::optional<std::vector<AdaptedScan>> SelfLabelledAdapter::adapt(
   scans.push_back(std::move(adapted));
   return scans;
 }
+
+std::unique_ptr<ObservationAdapter> SelfLabelledAdapter::clone() const {
+  return std::make_unique<SelfLabelledAdapter>();
+}
+
+void SelfLabelledAdapter::writeTo(ByteWriter& /*out*/) const {}
+
+void SelfLabelledAdapter::readFrom(ByteReader& /*in*/) {}
 
 }  // namespace csom

@@ -30,20 +30,24 @@ const char* toString(VoxelState state);
 /// probabilities are the posterior means λ^k = (σ0+σ^k)/(K·σ0+Σσ) (eq. 22).
 class DirichletVoxel {
  public:
-  DirichletVoxel(int number_of_classes, double prior)
-      : number_of_classes_(number_of_classes), prior_(prior) {}
-  DirichletVoxel(int number_of_classes, double prior, const std::uint8_t* classes,
-                 const std::uint32_t* counts, int size)
+  /// `unlabelled`: see Options::unlabelled_class_id; 0 = none.
+  DirichletVoxel(int number_of_classes, double prior, ClassId unlabelled)
+      : number_of_classes_(number_of_classes), unlabelled_(unlabelled), prior_(prior) {}
+  DirichletVoxel(int number_of_classes, double prior, ClassId unlabelled,
+                 const std::uint8_t* classes, const std::uint32_t* counts, int size)
       : classes_(classes),
         counts_(counts),
         size_(size),
         number_of_classes_(number_of_classes),
+        unlabelled_(unlabelled),
         prior_(prior) {}
 
   /// True if any class has a count.
   bool known() const { return size_ > 0; }
   VoxelState state() const;
-  /// The class of highest probability (ties: the lower id); kFreeClass if unknown.
+  /// The class of highest probability (ties: the lower id); kFreeClass if unknown. Where points
+  /// without a label are a class of their own, their evidence counts for the best other occupied
+  /// class, so that this one is returned although its own probability may be lower.
   ClassId mostLikelyClass() const;
 
   /// λ^k of one class; 1/K everywhere in an unknown voxel.
@@ -72,10 +76,13 @@ class DirichletVoxel {
   int numberOfClasses() const { return number_of_classes_; }
 
  private:
+  ClassId mostLikelyLabel() const;
+
   const std::uint8_t* classes_ = nullptr;
   const std::uint32_t* counts_ = nullptr;
   int size_ = 0;
   int number_of_classes_;
+  ClassId unlabelled_ = 0;
   double prior_;
 };
 

@@ -28,8 +28,11 @@ class OptionError : public std::invalid_argument {
 /// list is what ini files, reports, map files and streams read and write.
 struct Options {
   int number_of_classes = 2;  ///< K, class 0 = free included; 2 … 256
-  double resolution = 0.2;    ///< r, edge of a voxel [m]
-  int block_depth = 2;        ///< D_b; a block is 2^(D_b−1) voxels a side; 1 … 4
+  /// Class of what was hit but not recognised: its evidence counts for whichever other class the
+  /// voxel has, so that any label outvotes it. 0 = there is no such class.
+  int unlabelled_class_id = 0;
+  double resolution = 0.2;  ///< r, edge of a voxel [m]
+  int block_depth = 2;      ///< D_b; a block is 2^(D_b−1) voxels a side; 1 … 4
 
   Method method = Method::SeeCsom;
   bool rvfm = true;  ///< see-csom: redundant-voxel filter by context entropy (eqs. 4–9)
@@ -97,6 +100,8 @@ void visitOptions(OptionsLike& o, Visitor&& visitor) {
   visitor("resolution", o.resolution, "m", "edge of a voxel");
   visitor("number_of_classes", o.number_of_classes, "",
           "classes, free included; taken from the label set");
+  visitor("unlabelled_class_id", o.unlabelled_class_id, "",
+          "class that any label outvotes, 0 = none; taken from the label set");
   visitor("block_depth", o.block_depth, "", "a block is 2^(block_depth-1) voxels a side (1..4)");
   visitor("method", o.method, "", "see-csom | s-bki | s-csm");
   visitor("rvfm", o.rvfm, "", "see-csom: redundant-voxel filter by context entropy");
@@ -129,7 +134,7 @@ void visitOptions(OptionsLike& o, Visitor&& visitor) {
 bool setOption(Options& options, const std::string& key, const std::string& text);
 
 /// True if two maps with these options can be merged: all that fixes the meaning of counts and
-/// indices is equal (resolution, number_of_classes, prior).
+/// indices is equal (resolution, number_of_classes, unlabelled_class_id, prior).
 bool mergeable(const Options& a, const Options& b);
 
 }  // namespace csom

@@ -5,6 +5,8 @@
 #include <csom/core/SemanticMap.h>
 #include <csom/io/LabelSet.h>
 #include <csom/io/MapFile.h>
+#include <csom/maps/CameraLabelledAdapter.h>
+#include <csom/maps/LabelOptions.h>
 #include <csom/maps/LabelRules.h>
 #include <csom/maps/ObservationAdapter.h>
 #include <csom/maps/OccupiedPoints.h>
@@ -16,6 +18,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +39,7 @@ struct InsertionStatistics {
 struct LastInsertion {
   enum class Outcome {
     Inserted,
+    Kept,      ///< an image, or a scan that waits for its images
     NotTaken,  ///< of a kind that carries no points; also before the first insertion
     Damaged,
     NoPoints,  ///< taken, but no point of it could be used
@@ -49,8 +53,10 @@ struct LastInsertion {
 /// and query like any other metric map. docs/mrpt.md lists the keys of its ini sections.
 ///
 /// Takes CObservationVelodyneScan, CObservationPointCloud, CObservation3DRangeScan,
-/// CObservationRotatingScan and CObservation2DRangeScan; insertObservation() returns false for any
-/// other kind and for damaged or empty observations.
+/// CObservationRotatingScan and CObservation2DRangeScan, and where cameras give the labels
+/// (labelOptions) their images too; insertObservation() returns false for any other kind and for
+/// damaged or empty observations. Scans that wait for images are not in the map yet, but in what is
+/// saved: see flush().
 ///
 /// Thread-safety: as SemanticMap; the likelihood and all other const members may be called from
 /// several threads at a time.
@@ -97,16 +103,17 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   TInsertionOptions insertionOptions;
   TLikelihoodOptions likelihoodOptions;
   TRenderingOptions renderingOptions;
+  /// Cameras that label points. To be set before the first insertion.
+  LabelOptions labelOptions;
   /// Tell on stderr of the first damaged observation of each class: MRPT's applications have no
   /// other way to learn of it than statistics(), which they do not know.
   bool announce_damaged = true;
 
   CSemanticContinuousMap();
-  /// `options.number_of_classes` is taken from the label set. Throws OptionError.
+  /// What `options` say of classes is taken from the label set. Throws OptionError.
   explicit CSemanticContinuousMap(const Options& options,
                                   const LabelSet& labels = LabelSet::occupancy());
-  /// Copies share the voxels until one of them is written to. Observations that an adapter keeps
-  /// for later stay with the original.
+  /// Copies share the voxels until one of them is written to, and observations that wait.
   CSemanticContinuousMap(const CSemanticContinuousMap& other);
   CSemanticContinuousMap& operator=(const CSemanticContinuousMap& other);
 
@@ -116,6 +123,18 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   const std::vector<ScanRecord>& scans() const { return scans_; }
   const InsertionStatistics& statistics() const { return statistics_; }
   LastInsertion lastInsertion() const;
+  /// Nothing if no camera gives labels.
+  std::optional<CameraStatistics> cameraStatistics() const;
+
+  /// Loads the networks of labelOptions now instead of at the first image. Throws ConfigError or
+  /// FileError for what is wrong with them.
+  void openLabelSources();
+  /// Called for every scan that cameras have labelled, from now on; not by copies.
+  void setLabelledScanObserver(LabelledScanObserver observer);
+  /// Inserts the scans that still wait for images, with what labels there are. To be called when no
+  /// more observations will come; document() and saving do so on a copy. Throws FileError if a
+  /// network cannot be used.
+  void flush();
 
   /// The map as it goes to a file, and back. setDocument() keeps the MRPT-side options.
   /// What document() says of observations and points that are not in the map is counted on from
@@ -129,6 +148,7 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   TInsertionOptions insertionOpts;
   TLikelihoodOptions likelihoodOpts;
   TRenderingOptions renderOpts;
+  LabelOptions labelOpts;
 
   /// The same as loadFromConfigFile(), without warnings: unknown keys are only listed. Throws
   /// ConfigError that names section, key, value and what is accepted.
@@ -186,11 +206,13 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
       const mrpt::obs::CObservation& observation) const override;
 
   LabelRules labelRules() const;
+  ObservationAdapter& adapter();
   void invalidatePoints();
   /// Replaces all but the MRPT-side options. Throws before it changes anything.
   void setContent(SemanticMap map, std::shared_ptr<const SharedLabels> labels,
                   std::vector<ScanRecord> scans, std::map<std::string, std::string> meta);
-  /// Returns true if any point was used.
+  /// Both return true if any point was used.
+  bool insertScans(const std::vector<AdaptedScan>& adapted);
   bool insertScan(const AdaptedScan& adapted);
   void noteDamaged(const mrpt::obs::CObservation& observation, const std::string& why);
 
@@ -201,7 +223,8 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   LastInsertion last_insertion_;
   std::map<std::string, std::string> meta_;      ///< of the document that was set
   std::unique_ptr<ObservationAdapter> adapter_;  ///< made at the first insertion
-  OccupiedPoints occupied_points_;               ///< what getAsSimplePointsMap() hands out
+  LabelledScanObserver labelled_scan_observer_;
+  OccupiedPoints occupied_points_;  ///< what getAsSimplePointsMap() hands out
   // MRPT's points maps fail when they are searched in 2-D and then in 3-D: one for each.
   OccupiedPoints points_for_2d_;
   OccupiedPoints points_for_3d_;

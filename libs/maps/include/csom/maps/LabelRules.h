@@ -58,6 +58,12 @@ class LabelRules {
 
   const LabelSet& labels() const { return *labels_; }
   PointLabels source() const { return source_; }
+  /// The same rules for points whose own labels come from elsewhere.
+  LabelRules withSource(PointLabels source) const {
+    LabelRules rules = *this;
+    rules.source_ = source;
+    return rules;
+  }
   /// Class of points without a label; nothing = drop them.
   std::optional<ClassId> unlabelledClass() const { return unlabelled_; }
 

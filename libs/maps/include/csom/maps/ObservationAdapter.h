@@ -8,10 +8,15 @@
 #include <mrpt/obs/CObservation.h>
 
 #include <Eigen/Geometry>
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace csom {
+
+class ByteReader;
+class ByteWriter;
+struct CameraStatistics;
 
 /// A scan that is ready to be inserted, and the observation that its points come from.
 struct AdaptedScan {
@@ -35,6 +40,18 @@ class ObservationAdapter {
   virtual std::optional<std::vector<AdaptedScan>> adapt(const mrpt::obs::CObservation& observation,
                                                         const Eigen::Isometry3d& robot_pose,
                                                         const LabelRules& rules) = 0;
+  /// The scans that are still kept, labelled with what there is: nothing more will come.
+  virtual std::vector<AdaptedScan> flush() = 0;
+  /// With all that it keeps.
+  virtual std::unique_ptr<ObservationAdapter> clone() const = 0;
+  /// Scans that were complete before adapt() threw.
+  virtual std::vector<AdaptedScan> takeFinished() { return {}; }
+  /// Null if it uses no cameras. Valid until the next call.
+  virtual const CameraStatistics* cameraStatistics() const { return nullptr; }
+  /// What it keeps, as bytes and back: MRPT copies maps by streams. readFrom() is for an adapter of
+  /// the same configuration and throws std::runtime_error if the bytes are not those of writeTo().
+  virtual void writeTo(ByteWriter& out) const = 0;
+  virtual void readFrom(ByteReader& in) = 0;
 };
 
 /// The adapter for observations that carry their labels themselves, point by point or pixel by
@@ -44,7 +61,14 @@ class SelfLabelledAdapter : public ObservationAdapter {
   std::optional<std::vector<AdaptedScan>> adapt(const mrpt::obs::CObservation& observation,
                                                 const Eigen::Isometry3d& robot_pose,
                                                 const LabelRules& rules) override;
+  std::vector<AdaptedScan> flush() override { return {}; }
+  std::unique_ptr<ObservationAdapter> clone() const override;
+  void writeTo(ByteWriter& out) const override;
+  void readFrom(ByteReader& in) override;
 };
+
+/// Seconds since 1970; 0 if the observation has no time stamp.
+double secondsSince1970(const mrpt::obs::CObservation& observation);
 
 /// The scan of one observation's points: in the frame of the map, axes parallel to it, relative to
 /// the sensor, points without a usable label left out and counted.

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Images and scans that wait for each other, as bytes: MRPT's particle filter copies maps by
+// streams, between the image and the scan too.
+#include <opencv2/core.hpp>
+
+#include "ByteStream.h"
+#include "CameraLabelling.h"
+
+namespace csom {
+namespace {
+
+template <class Value>
+void writeVector(ByteWriter& out, const std::vector<Value>& values) {
+  out.number(static_cast<std::uint64_t>(values.size()));
+  out.raw(values.data(), values.size() * sizeof(Value));
+}
+
+template <class Value>
+std::vector<Value> readVector(ByteReader& in) {
+  std::vector<Value> values(in.count(sizeof(Value)));
+  if (!values.empty())
+    std::memcpy(static_cast<void*>(values.data()), in.raw(values.size() * sizeof(Value)),
+                values.size() * sizeof(Value));
+  return values;
+}
+
+void write(ByteWriter& out, const Eigen::Isometry3d& pose) {
+  for (Eigen::Index i = 0; i < 12; ++i) out.number(pose.matrix()(i / 4, i % 4));
+}
+
+Eigen::Isometry3d readPose(ByteReader& in) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  for (Eigen::Index i = 0; i < 12; ++i) pose.matrix()(i / 4, i % 4) = in.number<double>();
+  return pose;
+}
+
+void write(ByteWriter& out, const cv::Mat& pixels) {
+  out.number(static_cast<std::int32_t>(pixels.rows));
+  out.number(static_cast<std::int32_t>(pixels.cols));
+  out.number(static_cast<std::int32_t>(pixels.type()));
+  const std::size_t row = static_cast<std::size_t>(pixels.cols) * pixels.elemSize();
+  for (int i = 0; i < pixels.rows; ++i) out.raw(pixels.ptr(i), row);
+}
+
+cv::Mat readPixels(ByteReader& in) {
+  const auto rows = in.number<std::int32_t>();
+  const auto columns = in.number<std::int32_t>();
+  const auto type = in.number<std::int32_t>();
+  if (rows == 0 && columns == 0) return {};
+  const bool known = type == CV_8UC3 || type == CV_8UC1 || type == CV_16UC1;
+  constexpr std::int32_t kMost = 1 << 16;
+  if (!known || rows <= 0 || columns <= 0 || rows > kMost || columns > kMost)
+    throw std::runtime_error("serialised map: an image that cannot be");
+  const std::size_t row = static_cast<std::size_t>(columns) * CV_ELEM_SIZE(type);
+  const auto* bytes =
+      static_cast<const std::uint8_t*>(in.raw(row * static_cast<std::size_t>(rows)));
+  cv::Mat pixels(rows, columns, type);
+  for (int i = 0; i < rows; ++i)
+    std::memcpy(pixels.ptr(i), bytes + static_cast<std::size_t>(i) * row, row);
+  return pixels;
+}
+
+void write(ByteWriter& out, const CameraCalibration& c) {
+  out.number(static_cast<std::int32_t>(c.width));
+  out.number(static_cast<std::int32_t>(c.height));
+  for (const double value : {c.fx, c.fy, c.cx, c.cy}) out.number(value);
+  out.number(static_cast<std::uint8_t>(c.distortion));
+  for (const double value : c.coefficients) out.number(value);
+}
+
+CameraCalibration readCalibration(ByteReader& in) {
+  CameraCalibration c;
+  c.width = in.number<std::int32_t>();
+  c.height = in.number<std::int32_t>();
+  for (double* value : {&c.fx, &c.fy, &c.cx, &c.cy}) *value = in.number<double>();
+  const auto distortion = in.number<std::uint8_t>();
+  if (distortion > static_cast<std::uint8_t>(LensDistortion::KannalaBrandt))
+    throw std::runtime_error("serialised map: an unknown lens distortion");
+  c.distortion = static_cast<LensDistortion>(distortion);
+  for (double& value : c.coefficients) value = in.number<double>();
+  return c;
+}
+
+/// Without the photo and the labels: the one is for pictures, the others are asked for again.
+void write(ByteWriter& out, const StreamedImage& image) {
+  out.number(image.time);
+  out.number(static_cast<std::uint64_t>(image.number));
+  write(out, image.pixels);
+  write(out, image.projection->calibration());
+  write(out, image.camera_in_map);
+  out.number(static_cast<std::uint8_t>(image.used));
+}
+
+StreamedImage readStreamedImage(ByteReader& in) {
+  StreamedImage image;
+  image.time = in.number<double>();
+  image.number = in.number<std::uint64_t>();
+  image.pixels = readPixels(in);
+  const CameraCalibration calibration = readCalibration(in);
+  if (image.pixels.cols != calibration.width || image.pixels.rows != calibration.height)
+    throw std::runtime_error("serialised map: an image of another size than its calibration");
+  image.projection = std::make_shared<const CameraProjection>(calibration);
+  image.camera_in_map = readPose(in);
+  image.used = in.flag();
+  return image;
+}
+
+void write(ByteWriter& out, const WaitingScan& scan) {
+  out.number(scan.time);
+  out.number(static_cast<std::uint8_t>(scan.late));
+  out.text(scan.sensor_label);
+  out.text(scan.observation_class);
+  writeVector(out, scan.points.points);
+  write(out, scan.sensor_in_map);
+}
+
+WaitingScan readWaitingScan(ByteReader& in) {
+  WaitingScan scan;
+  scan.time = in.number<double>();
+  scan.late = in.flag();
+  scan.sensor_label = in.text();
+  scan.observation_class = in.text();
+  scan.points.points = readVector<Eigen::Vector3f>(in);
+  scan.sensor_in_map = readPose(in);
+  return scan;
+}
+
+/// The fields of the statistics that are numbers, for reading and for writing.
+template <class Statistics, class Visitor>
+void visitNumbers(Statistics& s, Visitor&& visit) {
+  for (auto& source : s.sources) {
+    visit(source.images_read);
+    visit(source.images_used);
+    visit(source.images_refused);
+    visit(source.network_runs);
+    visit(source.from_cache);
+  }
+  visit(s.scans_labelled);
+  visit(s.scans_without_image);
+  visit(s.scans_late);
+  visit(s.restarts);
+  for (auto& count : s.points) visit(count);
+  visit(s.kept_unlabelled);
+  visit(s.image_seconds);
+  visit(s.network_seconds);
+  visit(s.labelling_seconds);
+}
+
+}  // namespace
+
+void CameraLabelling::writeTo(ByteWriter& out) const {
+  visitNumbers(statistics_, [&](const auto& number) { out.number(number); });
+  out.number(clock_);
+  for (const Camera& camera : cameras_) {
+    out.number(static_cast<std::uint64_t>(camera.image_count));
+    out.number(static_cast<std::uint64_t>(camera.images.images().size()));
+    for (const StreamedImage& image : camera.images.images()) write(out, image);
+  }
+  out.number(static_cast<std::uint64_t>(waiting_.size()));
+  for (const WaitingScan& scan : waiting_) write(out, scan);
+}
+
+void CameraLabelling::readFrom(ByteReader& in) {
+  visitNumbers(statistics_,
+               [&](auto& number) { number = in.number<std::decay_t<decltype(number)>>(); });
+  clock_ = in.number<double>();
+  for (Camera& camera : cameras_) {
+    camera.image_count = in.number<std::uint64_t>();
+    camera.images.clear();
+    for (std::size_t left = in.count(1); left > 0; --left) camera.images.add(readStreamedImage(in));
+  }
+  waiting_.clear();
+  for (std::size_t left = in.count(1); left > 0; --left) waiting_.push_back(readWaitingScan(in));
+}
+
+}  // namespace csom

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scan before and after it has its labels.
+#include "WaitingScan.h"
+
+namespace csom {
+namespace {
+
+/// True for points that hit something of which no camera tells what it is.
+bool unseen(PointFate fate) {
+  return fate == PointFate::OutsideView || fate == PointFate::Hidden || fate == PointFate::AtEdge;
+}
+
+}  // namespace
+
+AdaptedScan scanOf(const WaitingScan& waiting, const LabelledPoints& labelled,
+                   int number_of_classes, ClassId unlabelled, std::size_t& kept_unlabelled) {
+  AdaptedScan adapted;
+  adapted.timestamp = waiting.time;
+  adapted.sensor_label = waiting.sensor_label;
+  adapted.observation_class = waiting.observation_class;
+  adapted.scan.origin = waiting.sensor_in_map.translation();
+  const Eigen::Matrix3d rotation = waiting.sensor_in_map.linear();
+  const auto classes = static_cast<std::size_t>(number_of_classes);
+  const bool soft = !labelled.scores.empty();
+  for (std::size_t i = 0; i < waiting.points.points.size(); ++i) {
+    const bool keep = unlabelled != kFreeClass && unseen(labelled.fates[i]);
+    if (labelled.fates[i] != PointFate::Labelled && !keep) continue;
+    if (keep) ++kept_unlabelled;
+    const Eigen::Vector3d point = rotation * waiting.points.points[i].cast<double>();
+    adapted.scan.points.push_back(point.cast<float>());
+    if (!soft) {
+      adapted.scan.labels.push_back(keep ? unlabelled : labelled.classes[i]);
+      continue;
+    }
+    std::vector<float>& scores = adapted.scan.scores;
+    if (keep) {
+      scores.resize(scores.size() + classes, 0.0F);
+      scores[scores.size() - classes + unlabelled] = 1;
+    } else {
+      const auto row = labelled.scores.begin() + static_cast<std::ptrdiff_t>(i * classes);
+      scores.insert(scores.end(), row, row + static_cast<std::ptrdiff_t>(classes));
+    }
+  }
+  return adapted;
+}
+
+}  // namespace csom
