@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of csom::io share: a folder of their own, raw file access, a small map.
+// What the tests of csom::io share: a small map and its document.
 #pragma once
 
 #include <csom/core/Error.h>
@@ -16,50 +16,9 @@
 #include <string>
 #include <vector>
 
+#include "TestFiles.h"
+
 namespace csom::test {
-
-/// A new empty folder that disappears with the object.
-class TempFolder {
- public:
-  TempFolder() {
-    std::string pattern = testing::TempDir() + "csom-XXXXXX";
-    if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot make a folder");
-    path_ = pattern;
-  }
-  ~TempFolder() {
-    std::error_code error;
-    std::filesystem::remove_all(path_, error);
-  }
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-
-  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
-
-  std::vector<std::string> fileNames() const {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(path_))
-      names.push_back(entry.path().filename().string());
-    return names;
-  }
-
- private:
-  std::string path_;
-};
-
-inline void writeBytes(const std::string& file, const std::string& bytes) {
-  std::ofstream stream(file, std::ios::binary);
-  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  ASSERT_TRUE(stream.good()) << file;
-}
-
-inline std::string readBytes(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  EXPECT_TRUE(stream.good()) << file;
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  return bytes.str();
-}
 
 /// The bytes of a number, little-endian as the machine's.
 template <class Number>
@@ -67,18 +26,6 @@ std::string bytesOf(Number number) {
   std::string bytes(sizeof number, '\0');
   std::memcpy(bytes.data(), &number, sizeof number);
   return bytes;
-}
-
-/// The message of the FileError that `action` must throw; fails the test if it throws none.
-template <class Action>
-std::string fileErrorOf(Action&& action) {
-  try {
-    action();
-  } catch (const FileError& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no FileError";
-  return "";
 }
 
 inline LabelSet sampleLabels() {

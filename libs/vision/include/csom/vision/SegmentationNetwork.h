@@ -16,7 +16,7 @@ namespace csom {
 struct NetworkDescription {
   enum class Resize {
     Stretch,   ///< the image is scaled to the input, its aspect ratio may change
-    Letterbox  ///< scaled with its aspect ratio, the rest of the input is filled with the mean
+    Letterbox  ///< scaled with its aspect ratio and centred; the rest is filled with the mean
   };
   enum class Channels { Rgb, Bgr, Gray };
   enum class Output {
@@ -39,12 +39,14 @@ struct NetworkDescription {
   int batch = 1;            ///< most images of one run; 1 for models with a fixed batch
   std::string output_name;  ///< empty: the only output
   Output output = Output::Logits;
+  int output_channels = 0;  ///< K; 0 if the output is an index
   /// Class names of the label set by channel (`ignore`: none); empty: channel numbers are raw ids
   /// of the label set.
   std::vector<std::string> classes;
 
   /// Throws ConfigError "FILE:LINE: …" for what is wrong with the file. `model` replaces the model
   /// that the file names, unless empty. Relative paths in the file are relative to the file.
+  /// config/networks/espnetv2-cityscapes.yaml explains every key.
   static NetworkDescription load(const std::string& file, const std::string& model = "");
 };
 
