@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// HTML escaping and base64.
+// HTML escaping, colours and base64.
 #include "Html.h"
+
+#include <cstdio>
 
 namespace csom {
 
@@ -33,6 +35,12 @@ std::string escapeHtml(const std::string& text) {
     }
   }
   return escaped;
+}
+
+std::string cssColor(const Color& color) {
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", color[0], color[1], color[2]);
+  return text;
 }
 
 std::string encodeBase64(const std::vector<std::uint8_t>& bytes) {

@@ -2,6 +2,8 @@
 // Putting texts and bytes into a page safely.
 #pragma once
 
+#include <csom/io/LabelSet.h>
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,6 +12,9 @@ namespace csom {
 
 /// Makes any bytes safe as text and inside quoted attributes; control characters become spaces.
 std::string escapeHtml(const std::string& text);
+
+/// "#c80000".
+std::string cssColor(const Color& color);
 
 /// RFC 4648, with padding, without line breaks.
 std::string encodeBase64(const std::vector<std::uint8_t>& bytes);

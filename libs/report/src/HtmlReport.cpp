@@ -4,9 +4,9 @@
 #include <csom/report/HtmlReport.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <sstream>
 
+#include "CameraSections.h"
 #include "Html.h"
 #include "ReportStyle.h"
 #include "TimingSummary.h"
@@ -27,12 +27,6 @@ std::string titleOf(const RunRecord& record) {
   if (record.inputs.size() > 1)
     title += " and " + formatCount(record.inputs.size() - 1, "more file");
   return title;
-}
-
-std::string cssColor(const Color& color) {
-  char text[8];
-  std::snprintf(text, sizeof text, "#%02x%02x%02x", color[0], color[1], color[2]);
-  return text;
 }
 
 /// "63 × 41 × 8 m", with spaces at which no line breaks.
@@ -62,9 +56,9 @@ void writeSummary(std::ostream& page, const RunRecord& record, const MapFigures&
          << formatCount(figures.occupied_voxels, "voxel") << " are occupied and "
          << formatCount(figures.free_voxels) << " are known to be free.";
   }
-  page << "</p>\n<p class=\"soft\">Poses: " << escapeHtml(record.pose_source)
-       << ". Label set: " << escapeHtml(record.label_set) << ". Made by csom "
-       << escapeHtml(record.program_version) << ".</p>\n";
+  page << "</p>\n<p class=\"soft\">Poses: " << escapeHtml(record.pose_source) << ". "
+       << motionInWords(record) << "Label set: " << escapeHtml(record.label_set)
+       << ". Made by csom " << escapeHtml(record.program_version) << ".</p>\n";
 }
 
 void writeFigure(std::ostream& page, const std::string& name, const std::string& value) {
@@ -183,8 +177,13 @@ void writeRejects(std::ostream& page, const RunRecord& record) {
   const ScanReport total = totals(record);
   for (std::size_t i = 0; i < kRejectReasons; ++i)
     list(total.rejected[i], inWords(static_cast<RejectReason>(i)));
-  list(record.label_rejects.ignored, "had a label that the label set ignores");
-  list(record.label_rejects.unknown, "had a label that the label set does not know");
+  const CameraPointCounts cameras =
+      record.camera_labels ? record.camera_labels->points : CameraPointCounts{};
+  list(cameras.unseenAndDropped(), "were seen by no camera, or not properly");
+  list(cameras.low_confidence, "had a class that is less sure than <code>min_confidence</code>");
+  list(record.label_rejects.ignored + cameras.ignored, "had a label that the label set ignores");
+  list(record.label_rejects.unknown + cameras.unknown,
+       "had a label that the label set does not know");
   list(record.label_rejects.missing, "had no label");
   list(record.label_rejects.ambiguous, "had several labels");
   page << "</ul>\n";
@@ -254,7 +253,9 @@ std::string htmlReport(const RunRecord& record, const MapFigures& figures,
   writeSummary(page, record, figures);
   writeFigures(page, record, figures);
   writeTopView(page, figures, top_view);
+  writeCameraPictures(page, record, figures);
   writeClasses(page, figures);
+  writeCameraLabels(page, record);
   writeTiming(page, record);
   page << "<h2>What was left out</h2>\n";
   writeRejects(page, record);

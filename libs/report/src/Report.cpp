@@ -18,7 +18,30 @@ void writeFile(const std::filesystem::path& path, const void* bytes, std::size_t
   file.commit();
 }
 
+std::string pictureFile(CameraPicture::Moment moment, const char* what) {
+  return std::string("camera-") + toString(moment) + "-" + what + ".jpg";
+}
+
+void writePictures(const std::vector<CameraPicture>& pictures, const std::filesystem::path& base) {
+  for (const CameraPicture& picture : pictures) {
+    if (picture.sensor_label != pictures.front().sensor_label) continue;
+    writeFile(base / pictureFile(picture.moment, "segmentation"), picture.segmentation.data(),
+              picture.segmentation.size());
+    writeFile(base / pictureFile(picture.moment, "points"), picture.points.data(),
+              picture.points.size());
+  }
+}
+
 }  // namespace
+
+std::vector<std::string> reportFiles() {
+  std::vector<std::string> names{"run.json", "report.html", "top.png"};
+  using Moment = CameraPicture::Moment;
+  for (const Moment moment : {Moment::First, Moment::Middle, Moment::Last}) {
+    for (const char* what : {"segmentation", "points"}) names.push_back(pictureFile(moment, what));
+  }
+  return names;
+}
 
 void writeReport(const RunRecord& record, const MapDocument& document, const MapFigures& figures,
                  const std::string& folder, const ReportOptions& options) {
@@ -31,6 +54,7 @@ void writeReport(const RunRecord& record, const MapDocument& document, const Map
     const std::string json = toJson(record, figures);
     writeFile(base / "run.json", json.data(), json.size());
   }
+  if (options.pictures) writePictures(record.pictures, base);
   if (!options.png && !options.html) return;
 
   TopViewOptions view = options.top_view;

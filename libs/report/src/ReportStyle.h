@@ -40,6 +40,18 @@ figure img {
   border: 1px solid var(--rule); border-radius: .5rem;
 }
 figcaption { color: var(--soft); font-size: .9rem; margin-top: .4rem; }
+.pair { display: grid; grid-template-columns: 1fr; gap: .5rem; margin: 1rem 0 1.5rem; }
+.pair img { width: 100%; }
+.pair figcaption { grid-column: 1 / -1; margin: 0; }
+.legend { display: flex; flex-wrap: wrap; gap: .25rem 1.1rem; margin: .5rem 0; padding: 0; }
+.legend { list-style: none; }
+@media (min-width: 60rem) {
+  /* Two pictures side by side need more than the column of the text. */
+  .pair {
+    grid-template-columns: 1fr 1fr; width: min(96vw, 112rem); position: relative; left: 50%;
+    transform: translateX(-50%);
+  }
+}
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { padding: .35rem .6rem; text-align: right; border-bottom: 1px solid var(--rule); }
@@ -70,6 +82,7 @@ summary { cursor: pointer; padding: .3rem 0; }
 }
 @media print {
   body { max-width: none; padding: 0; }
+  .pair { grid-template-columns: 1fr 1fr; width: auto; left: 0; transform: none; }
   h2 { break-after: avoid; }
   tr, figure, .figures div { break-inside: avoid; }
 }

@@ -57,15 +57,10 @@ Json scanJson(const RunScan& scan) {
 }
 
 void addCameraRejects(Json& rejects, const CameraPointCounts& points) {
-  const auto add = [&](const char* reason, std::size_t count) {
-    rejects[reason] = rejects.value(reason, std::size_t{0}) + count;
-  };
-  add("unknown-label", points.unknown);
-  add("ignored-label", points.ignored);
-  add("outside-view", points.outside_view - points.kept_unlabelled);
-  add("hidden-from-camera", points.hidden);
-  add("at-label-edge", points.at_edge);
-  add("low-confidence", points.low_confidence);
+  rejects["unknown-label"] = rejects["unknown-label"].get<std::size_t>() + points.unknown;
+  rejects["ignored-label"] = rejects["ignored-label"].get<std::size_t>() + points.ignored;
+  rejects["not-seen-by-camera"] = points.unseenAndDropped();
+  rejects["low-confidence"] = points.low_confidence;
 }
 
 Json totalsJson(const RunRecord& record) {
@@ -148,6 +143,7 @@ Json cameraLabelsJson(const RunRecord& record) {
            {{"labelled", labels.scans.labelled},
             {"without_image", labels.scans.without_image},
             {"late", labels.scans.late}}},
+          {"clock_restarts", labels.clock_restarts},
           {"points",
            {{"labelled", points.labelled},
             {"outside_view", points.outside_view},

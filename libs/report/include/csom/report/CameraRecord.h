@@ -14,10 +14,10 @@ namespace csom {
 /// What became of the images of one camera, or of all.
 struct ImageCounts {
   std::size_t read = 0;          ///< all that the input holds
-  std::size_t used = 0;          ///< labelled at least one scan
+  std::size_t used = 0;          ///< near enough in time to a scan
   std::size_t network_runs = 0;  ///< went through the network
   std::size_t from_cache = 0;    ///< had their labels in the label cache
-  std::size_t unused = 0;        ///< no scan was near enough in time
+  std::size_t unused = 0;        ///< no scan needed them
   std::size_t refused = 0;       ///< could not be used: damaged, not calibrated, …
 };
 
@@ -31,7 +31,8 @@ struct CameraSource {
 struct CameraScanCounts {
   std::size_t labelled = 0;
   std::size_t without_image = 0;  ///< no image was near enough in time
-  std::size_t late = 0;           ///< came when what they would be paired with had gone
+  /// Of the ones without: came when the images of their time had been given up already.
+  std::size_t late = 0;
 };
 
 /// Points of the scans by what became of them; each is in one field, kept_unlabelled apart.
@@ -43,14 +44,15 @@ struct CameraPointCounts {
   std::size_t low_confidence = 0;  ///< dropped: the best class is not sure enough
   std::size_t ignored = 0;         ///< the label set ignores what the pixel shows
   std::size_t unknown = 0;         ///< the label set does not know what the pixel shows
-  /// Those of outside_view that went into the map all the same, as unlabelled.
+  /// Those of outside_view, hidden and at_edge that are in the map all the same, as unlabelled.
   std::size_t kept_unlabelled = 0;
 
   std::size_t inView() const {
     return labelled + hidden + at_edge + low_confidence + ignored + unknown;
   }
-  /// Points that the map never saw.
-  std::size_t dropped() const { return inView() - labelled + outside_view - kept_unlabelled; }
+  std::size_t unseenAndDropped() const { return outside_view + hidden + at_edge - kept_unlabelled; }
+  /// Points that the map never got.
+  std::size_t dropped() const { return unseenAndDropped() + low_confidence + ignored + unknown; }
 };
 
 /// Where the time went [s].
@@ -64,6 +66,7 @@ struct CameraSeconds {
 struct CameraLabels {
   std::vector<CameraSource> cameras;
   CameraScanCounts scans;
+  std::size_t clock_restarts = 0;  ///< times at which the time stamps went back
   CameraPointCounts points;
   CameraSeconds seconds;
 };
@@ -85,8 +88,11 @@ struct RegistrationRecord {
   double seconds = 0;
 };
 
-/// One camera frame in two pictures, each a JPEG or PNG file.
+/// One camera image in two pictures, each a JPEG file.
 struct CameraPicture {
+  enum class Moment { First, Middle, Last };  ///< of the run
+
+  Moment moment = Moment::First;
   std::string sensor_label;
   double timestamp = 0;                    ///< of the image [s since 1970, UTC]
   std::size_t frame = 0;                   ///< number of the image of this camera, from 0
@@ -94,5 +100,6 @@ struct CameraPicture {
   std::vector<std::uint8_t> points;        ///< the points over it, in the colours of their classes
   std::vector<ClassId> classes;            ///< those that the pictures show
 };
+const char* toString(CameraPicture::Moment moment);
 
 }  // namespace csom

@@ -8,6 +8,7 @@
 #include <csom/report/TopView.h>
 
 #include <string>
+#include <vector>
 
 namespace csom {
 
@@ -15,12 +16,16 @@ struct ReportOptions {
   bool json = true;         ///< run.json
   bool png = true;          ///< top.png
   bool html = true;         ///< report.html
+  bool pictures = true;     ///< camera-….jpg
   TopViewOptions top_view;  ///< its `up` is that of the record
 };
 
+/// Names of all files that writeReport() may write.
+std::vector<std::string> reportFiles();
+
 /// `figures` are those of the document, see figuresOf(). Writes the files into `folder`, which is
-/// created if missing. Each file is complete or absent: it is written beside its place and then
-/// renamed. Throws FileError.
+/// created if missing. Of several cameras, the first one's pictures become files. Each file is
+/// complete or absent: it is written beside its place and then renamed. Throws FileError.
 void writeReport(const RunRecord& record, const MapDocument& document, const MapFigures& figures,
                  const std::string& folder, const ReportOptions& options = {});
 

@@ -75,7 +75,7 @@ struct RunRecord {
   std::optional<CameraLabels> camera_labels;       ///< nothing if no camera is configured
   std::optional<DeskewCounts> deskew;              ///< nothing if it is switched off
   std::optional<RegistrationRecord> registration;  ///< nothing if the poses were given
-  std::vector<CameraPicture> pictures;             ///< in order of time
+  std::vector<CameraPicture> pictures;             ///< in the order of the page
   std::vector<std::string> warnings;
   double wall_seconds = 0;
 };
