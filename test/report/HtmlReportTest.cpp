@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -146,6 +147,92 @@ TEST(HtmlReportTest, AFloodOfWarningsIsCutAndCounted) {
   EXPECT_THAT(page, HasSubstr("10,000 warnings"));
   EXPECT_THAT(page, HasSubstr("9,800 more are in <code>run.json</code>"));
   EXPECT_LT(page.size(), 200'000u);
+}
+
+std::string pageOfCameraRun(RunRecord record) {
+  return pageOf(record, test::mapOf({{{0, 0, 0}, 1}}));
+}
+
+TEST(HtmlReportTest, WithoutCamerasThereIsNothingAboutThem) {
+  const std::string page = samplePage();
+  for (const char* word :
+       {"camera", "What became of the points", "registered", "de-skewed", "jpeg"})
+    EXPECT_THAT(page, Not(HasSubstr(word)));
+}
+
+TEST(HtmlReportTest, ShowsWhatTheCameraSawWithALegendOfItsClasses) {
+  RunRecord record = test::sampleRecord();
+  record.pictures = {test::samplePicture(CameraPicture::Moment::First, "left"),
+                     test::samplePicture(CameraPicture::Moment::Last, "left")};
+  record.pictures.back().segmentation = {'o', 't', 'h', 'e', 'r'};
+  const std::string page = pageOfCameraRun(record);
+  EXPECT_THAT(page, HasSubstr("<h2>What the camera saw</h2>"));
+  EXPECT_THAT(page, HasSubstr("data:image/jpeg;base64," + encodeBase64({'s', 'e', 'g'}) + "\""));
+  EXPECT_THAT(page,
+              HasSubstr("data:image/jpeg;base64," + encodeBase64({'d', 'o', 't', 's'}) + "\""));
+  EXPECT_THAT(page, HasSubstr(encodeBase64({'o', 't', 'h', 'e', 'r'})));
+  EXPECT_THAT(page, HasSubstr("The first image of <code>left</code>: number 7, time "
+                              "1700000000.250 s"));
+  EXPECT_THAT(page, HasSubstr("The last image of"));
+  EXPECT_THAT(page, HasSubstr("background:#c80000\"></span>ground</li>"));
+  EXPECT_THAT(page, HasSubstr("wall</li>"));
+  EXPECT_THAT(page, Not(HasSubstr("tree</li>")));
+  expectBalanced(page);
+}
+
+TEST(HtmlReportTest, SaysWhatBecameOfThePointsInView) {
+  RunRecord record = test::sampleRecord();
+  record.camera_labels = test::sampleCameraLabels();
+  const std::string page = pageOfCameraRun(record);
+  EXPECT_THAT(page, HasSubstr("got a label</td><td>6,000</td><td>75 %</td>"));
+  EXPECT_THAT(page, HasSubstr("something nearer</td><td>1,000</td><td>12.5 %</td>"));
+  EXPECT_THAT(page, HasSubstr("10,000 points of 18,000 (55.6 %) lay in the view of no camera."));
+  EXPECT_THAT(page, Not(HasSubstr("as unlabelled")));
+  EXPECT_THAT(page, HasSubstr("18 scans got labels from images. 4 scans had no image"));
+  EXPECT_THAT(page, HasSubstr("1 of these came when"));
+  EXPECT_THAT(page, Not(HasSubstr("time stamps went back")));
+  EXPECT_THAT(page, HasSubstr("<code>left</code></td><td class=\"text\">network</td><td>20</td>"
+                              "<td>15</td><td>12</td><td>3</td><td>4</td><td>1</td>"));
+  EXPECT_THAT(page, HasSubstr("The network alone took 10 s; the rest of the run added 23.4 %"));
+  EXPECT_THAT(page, HasSubstr("11,500 were seen by no camera, or not properly"));
+  EXPECT_THAT(page, HasSubstr("200 had a label that the label set ignores"));
+  expectBalanced(page);
+}
+
+TEST(HtmlReportTest, SaysThatPointsWereKeptAsUnlabelledAndThatTheClockWentBack) {
+  RunRecord record = test::sampleRecord();
+  record.camera_labels = test::sampleCameraLabels();
+  record.camera_labels->points.kept_unlabelled = 11'500;
+  record.camera_labels->clock_restarts = 3;
+  record.camera_labels->seconds.network = 0;
+  const std::string page = pageOfCameraRun(record);
+  EXPECT_THAT(page, HasSubstr("11,500 went into the map as unlabelled"));
+  EXPECT_THAT(page, HasSubstr("The time stamps went back 3 times."));
+  EXPECT_THAT(page, Not(HasSubstr("were seen by no camera")));
+  EXPECT_THAT(page, Not(HasSubstr("The network alone")));
+}
+
+TEST(HtmlReportTest, SaysHowScansWereRegisteredAndDeskewed) {
+  RunRecord record = test::sampleRecord();
+  record.registration = RegistrationRecord{100, 3, 12.5};
+  record.deskew = DeskewCounts{97, 2, 1};
+  const std::string page = pageOfCameraRun(record);
+  EXPECT_THAT(page, HasSubstr("100 scans registered in 12.5 s, of which 3 fit poorly."));
+  EXPECT_THAT(page, HasSubstr("Scans de-skewed: 97, not needed: 2, not possible: 1."));
+}
+
+TEST(HtmlReportTest, NoTextOfACameraBecomesMarkup) {
+  const std::string attack = "\"'><script>alert(1)</script>&";
+  RunRecord record = test::sampleRecord();
+  record.camera_labels = test::sampleCameraLabels();
+  record.camera_labels->cameras.front().sensor_label = attack;
+  record.camera_labels->cameras.front().source = attack;
+  record.pictures = {test::samplePicture(CameraPicture::Moment::First, attack)};
+  record.pictures.front().timestamp = std::numeric_limits<double>::infinity();
+  const std::string page = pageOfCameraRun(record);
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, HasSubstr("&quot;&#39;&gt;&lt;script&gt;"));
+  expectBalanced(page);
 }
 
 TEST(HtmlTest, Base64MatchesTheVectorsOfRfc4648) {

@@ -69,6 +69,31 @@ TEST_F(ReportTest, WritesWhatWasAskedFor) {
   EXPECT_EQ(files(), (std::set<std::string>{"run.json", "report.html"}));
 }
 
+TEST_F(ReportTest, WritesThePicturesOfTheFirstCameraAsFiles) {
+  using Moment = CameraPicture::Moment;
+  RunRecord record = test::sampleRecord();
+  for (const Moment moment : {Moment::First, Moment::Middle, Moment::Last}) {
+    record.pictures.push_back(test::samplePicture(moment, "left"));
+    record.pictures.push_back(test::samplePicture(moment, "right"));
+    record.pictures.back().points = {'n', 'o'};
+  }
+  writeReport(record, document_, figures_, folder_.string());
+  const std::vector<std::string> names = reportFiles();
+  EXPECT_EQ(files(), std::set<std::string>(names.begin(), names.end()));
+  EXPECT_EQ(read("camera-first-segmentation.jpg"), "seg");
+  EXPECT_EQ(read("camera-middle-points.jpg"), "dots");
+  EXPECT_EQ(read("camera-last-points.jpg"), "dots");
+}
+
+TEST_F(ReportTest, WritesNoPicturesUnlessAsked) {
+  RunRecord record = test::sampleRecord();
+  record.pictures = {test::samplePicture(CameraPicture::Moment::First, "left")};
+  ReportOptions options;
+  options.pictures = options.png = options.html = false;
+  writeReport(record, document_, figures_, folder_.string(), options);
+  EXPECT_EQ(files(), (std::set<std::string>{"run.json"}));
+}
+
 TEST_F(ReportTest, ReplacesAnEarlierReport) {
   fs::create_directories(folder_);
   std::ofstream(folder_ / "run.json") << "old";

@@ -167,5 +167,74 @@ TEST(RunRecordTest, BytesThatAreNotUtf8AreReplaced) {
   EXPECT_EQ(parsed(record)["inputs"][0], "caf\xEF\xBF\xBD.rawlog");
 }
 
+TEST(RunRecordTest, WithoutCamerasThereIsNothingAboutThem) {
+  const json run = parsed(test::sampleRecord());
+  EXPECT_FALSE(run.contains("camera_labels"));
+  EXPECT_FALSE(run.contains("deskew"));
+  EXPECT_FALSE(run.contains("registration"));
+  EXPECT_EQ(addedShare(test::sampleRecord()), std::nullopt);
+}
+
+TEST(RunRecordTest, CountsWhatBecameOfImagesScansAndPoints) {
+  RunRecord record = test::sampleRecord();
+  record.camera_labels = test::sampleCameraLabels();
+  record.wall_seconds = 12.5;
+  record.camera_labels->clock_restarts = 2;
+  record.camera_labels->points.kept_unlabelled = 9;
+  EXPECT_EQ(parsed(record)["camera_labels"], json::parse(R"({
+    "images": {"read": 30, "used": 24, "network_runs": 12, "from_cache": 3, "unused": 5,
+               "refused": 1},
+    "scans": {"labelled": 18, "without_image": 4, "late": 1},
+    "clock_restarts": 2,
+    "points": {"labelled": 6000, "outside_view": 10000, "hidden": 1000, "at_edge": 500,
+               "low_confidence": 250, "ignored": 200, "unknown": 50, "kept_unlabelled": 9},
+    "seconds": {"network": 10.0, "image_decoding": 0.5, "labelling": 1.5, "waiting": 0.25},
+    "added_share": 0.25,
+    "cameras": [
+      {"sensor_label": "left", "source": "network",
+       "images": {"read": 20, "used": 15, "network_runs": 12, "from_cache": 3, "unused": 4,
+                  "refused": 1}},
+      {"sensor_label": "right", "source": "label_image",
+       "images": {"read": 10, "used": 9, "network_runs": 0, "from_cache": 0, "unused": 1,
+                  "refused": 0}}]
+  })"));
+}
+
+TEST(RunRecordTest, WithoutANetworkTheAddedShareIsNull) {
+  RunRecord record = test::sampleRecord();
+  record.camera_labels = test::sampleCameraLabels();
+  record.camera_labels->seconds.network = 0;
+  EXPECT_TRUE(parsed(record)["camera_labels"]["added_share"].is_null());
+}
+
+TEST(RunRecordTest, PointsThatCamerasDropAreRejectsByReason) {
+  RunRecord record = test::sampleRecord();
+  record.label_rejects = {1, 20, 300, 4000};
+  record.camera_labels = test::sampleCameraLabels();
+  const auto check = [&](std::size_t unseen) {
+    const json totals = parsed(record)["totals"];
+    EXPECT_EQ(totals["rejects"]["unknown-label"], 20 + 50);
+    EXPECT_EQ(totals["rejects"]["ignored-label"], 300 + 200);
+    EXPECT_EQ(totals["rejects"]["not-seen-by-camera"], unseen);
+    EXPECT_EQ(totals["rejects"]["low-confidence"], 250);
+    std::size_t sum = 0;
+    for (const auto& [reason, count] : totals["rejects"].items()) sum += count.get<std::size_t>();
+    EXPECT_EQ(totals["rejected"], sum);
+    EXPECT_EQ(totals["points"], 2000 + 4321 + unseen + 250 + 200 + 50);
+  };
+  check(11'500);
+  record.camera_labels->points.kept_unlabelled = 11'000;  // these the scans count
+  check(500);
+}
+
+TEST(RunRecordTest, TellsAboutDeskewingAndRegistration) {
+  RunRecord record = test::sampleRecord();
+  record.deskew = DeskewCounts{5, 6, 7};
+  record.registration = RegistrationRecord{100, 3, 12.5};
+  const json run = parsed(record);
+  EXPECT_EQ(run["deskew"], json::parse(R"({"deskewed": 5, "not_needed": 6, "not_possible": 7})"));
+  EXPECT_EQ(run["registration"], json::parse(R"({"scans": 100, "doubtful": 3, "seconds": 12.5})"));
+}
+
 }  // namespace
 }  // namespace csom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small maps, voxel by voxel, and a run record for the tests of csom::report.
+// Small maps, voxel by voxel, and parts of a run record for the tests of csom::report.
 #pragma once
 
 #include <csom/report/RunRecord.h>
@@ -76,6 +76,35 @@ inline RunRecord sampleRecord() {
     record.scans.push_back(scan);
   }
   return record;
+}
+
+/// Two cameras, points of every fate.
+inline CameraLabels sampleCameraLabels() {
+  CameraLabels labels;
+  labels.cameras = {{"left", "network", {20, 15, 12, 3, 4, 1}},
+                    {"right", "label_image", {10, 9, 0, 0, 1, 0}}};
+  labels.scans = {18, 4, 1};
+  labels.points.labelled = 6000;
+  labels.points.outside_view = 10'000;
+  labels.points.hidden = 1000;
+  labels.points.at_edge = 500;
+  labels.points.low_confidence = 250;
+  labels.points.ignored = 200;
+  labels.points.unknown = 50;
+  labels.seconds = {10, 0.5, 1.5, 0.25};
+  return labels;
+}
+
+inline CameraPicture samplePicture(CameraPicture::Moment moment, const std::string& camera) {
+  CameraPicture picture;
+  picture.moment = moment;
+  picture.sensor_label = camera;
+  picture.timestamp = 1700000000.25;
+  picture.frame = 7;
+  picture.segmentation = {'s', 'e', 'g'};
+  picture.points = {'d', 'o', 't', 's'};
+  picture.classes = {1, 3};
+  return picture;
 }
 
 }  // namespace csom::test

@@ -98,7 +98,7 @@ void writePoints(std::ostream& page, const CameraPointCounts& points) {
 void writeScans(std::ostream& page, const CameraLabels& labels) {
   page << "<p>" << formatCount(labels.scans.labelled, "scan") << " got labels from images. ";
   if (labels.scans.without_image > 0)
-    page << formatCount(labels.scans.without_image)
+    page << formatCount(labels.scans.without_image, "scan")
          << " had no image near enough in time (<code>max_time_offset</code>). ";
   if (labels.scans.late > 0)
     page << formatCount(labels.scans.late)
@@ -143,11 +143,10 @@ void writeCameraPictures(std::ostream& page, const RunRecord& record, const MapF
       << "over them. Small gray points got no label here: something hides them from the camera, "
       << "they are at a border, or their pixel has no class.</p>\n";
   std::set<ClassId> classes;
-  for (const CameraPicture& picture : record.pictures) {
-    writePair(page, picture);
+  for (const CameraPicture& picture : record.pictures)
     classes.insert(picture.classes.begin(), picture.classes.end());
-  }
   writeLegend(page, classes, figures);
+  for (const CameraPicture& picture : record.pictures) writePair(page, picture);
 }
 
 void writeCameraLabels(std::ostream& page, const RunRecord& record) {
@@ -170,12 +169,9 @@ std::string motionInWords(const RunRecord& record) {
     text += ". ";
   }
   if (const auto& deskew = record.deskew) {
-    text += "Motion within scans: " + formatCount(deskew->deskewed) + " corrected, " +
-            formatCount(deskew->not_needed) + " without need";
-    if (deskew->not_possible > 0)
-      text +=
-          ", " + formatCount(deskew->not_possible) + " left as they are for lack of poses or times";
-    text += ". ";
+    text += "Scans de-skewed: " + formatCount(deskew->deskewed) +
+            ", not needed: " + formatCount(deskew->not_needed) +
+            ", not possible: " + formatCount(deskew->not_possible) + ". ";
   }
   return text;
 }

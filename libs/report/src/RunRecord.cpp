@@ -75,7 +75,6 @@ Json totalsJson(const RunRecord& record) {
   rejects["ignored-label"] = record.label_rejects.ignored;
   rejects["several-labels"] = record.label_rejects.ambiguous;
   if (record.camera_labels) addCameraRejects(rejects, record.camera_labels->points);
-  if (record.camera_labels) addCameraRejects(rejects, record.camera_labels->points);
   json["rejects"] = rejects;
   visitReport(total, [&](const std::string& name, const auto& field) {
     // Times are summed up under timing_ms.
