@@ -140,7 +140,9 @@ void runMap(const MapArguments& arguments) {
   inputs.push_back(arguments.config);
   if (request.poses && request.poses->kind != PoseChoice::Kind::RobotPose)
     inputs.push_back(request.poses->argument);
-  const OutputFolder folder(arguments.output, {"run.json", "report.html", "top.png", "map.csom"});
+  std::vector<std::string> names = reportFiles();
+  names.push_back("map.csom");
+  const OutputFolder folder(arguments.output, names);
   std::vector<std::string> outputs;
   for (const std::string& name : folder.results()) outputs.push_back(folder.file(name));
   if (!arguments.simplemap.empty()) outputs.push_back(arguments.simplemap);
