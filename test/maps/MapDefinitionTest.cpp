@@ -83,17 +83,22 @@ struct OtherValue {
   std::string operator()(const std::string&, FreeSpace) const { return "raycast"; }
 };
 
+/// The label set decides, not a key of its own.
+bool comesFromLabelSet(const std::string& key) {
+  return key == "number_of_classes" || key == "unlabelled_class_id";
+}
+
 TEST_F(MapDefinition, everyCoreOptionIsReadFromEverySection) {
   for (const char* suffix : {"creationOpts", "insertOpts", "insertionOpts"}) {
     std::string keys = section(suffix);
     const Options defaults;
     visitOptions(defaults, [&](const std::string& key, const auto& field, auto, auto) {
-      if (key != "number_of_classes") keys += key + " = " + OtherValue()(key, field) + "\n";
+      if (!comesFromLabelSet(key)) keys += key + " = " + OtherValue()(key, field) + "\n";
     });
     const Definition definition = load(keys);
     EXPECT_THAT(definition.unknownKeys(), ElementsAre()) << suffix;
     visitOptions(definition.options, [&](const std::string& key, const auto& field, auto, auto) {
-      if (key == "number_of_classes") return;
+      if (comesFromLabelSet(key)) return;
       EXPECT_EQ(toString(field), OtherValue()(key, field)) << suffix << " " << key;
     });
   }
@@ -162,6 +167,77 @@ TEST_F(MapDefinition, numberOfClassesComesFromTheLabelSet) {
   EXPECT_EQ(load(section("creationOpts") + "label_set = sample.yaml\nnumber_of_classes = 4\n")
                 .options.number_of_classes,
             4);
+}
+
+TEST_F(MapDefinition, labelSourcesAndTheirOptions) {
+  std::ofstream(folder_ / "network.yaml") << "a description";
+  std::ofstream(folder_ / "model.onnx") << "a model";
+  const Definition definition =
+      load(section("creationOpts") + "label_set = sample.yaml\n" + section("labelSource_00") +
+           "sensor_label = front\nsource = network\nnetwork = network.yaml\nmodel = model.onnx\n" +
+           section("labelSource_01") +
+           "sensor_label = rear\nsource = label_image\nlabel_image = rear_ids\n" +
+           section("labelSource_02") + "sensor_label = lidar\nsource = point_labels\n" +
+           section("labelOpts") + "label_mode = soft\ntemperature = 2\nmin_confidence = 0.25\n" +
+           "low_confidence = soft\nmax_time_offset = 0.5\noutside_view = unlabelled\n" +
+           "visibility = off\nvisibility_margin = 0.75\nedge_margin = 4\n" +
+           "several_cameras = vote\nlabel_cache = kept\n");
+  EXPECT_THAT(definition.unknownKeys(), ElementsAre());
+  const LabelOptions& options = definition.labelOpts;
+  ASSERT_EQ(options.sources.size(), 3U);
+  EXPECT_EQ(options.sources[0].sensor_label, "front");
+  EXPECT_EQ(options.sources[0].network, (folder_ / "network.yaml").string());
+  EXPECT_EQ(options.sources[0].model, (folder_ / "model.onnx").string());
+  EXPECT_EQ(options.sources[1].kind, LabelSource::Kind::LabelImage);
+  EXPECT_EQ(options.sources[1].label_image, "rear_ids");
+  EXPECT_EQ(options.sources[2].kind, LabelSource::Kind::PointLabels);
+  EXPECT_TRUE(options.usesCameras());
+  EXPECT_EQ(options.points.label_mode, PointLabellingOptions::LabelMode::Soft);
+  EXPECT_EQ(options.points.temperature, 2);
+  EXPECT_EQ(options.points.min_confidence, 0.25);
+  EXPECT_EQ(options.points.low_confidence, PointLabellingOptions::LowConfidence::Soft);
+  EXPECT_EQ(options.max_time_offset, 0.5);
+  EXPECT_EQ(options.outside_view, OutsideView::Unlabelled);
+  EXPECT_FALSE(options.points.visibility);
+  EXPECT_EQ(options.points.visibility_margin, 0.75);
+  EXPECT_EQ(options.points.edge_margin, 4);
+  EXPECT_EQ(options.points.several_cameras, PointLabellingOptions::SeveralCameras::Vote);
+  EXPECT_EQ(options.label_cache, "kept");
+}
+
+TEST_F(MapDefinition, pointsOutsideOfViewGiveTheLabelSetAClassForThem) {
+  const Definition definition = load(section("labelOpts") + "outside_view = unlabelled\n");
+  EXPECT_EQ(definition.labels.classByName("unlabelled"), ClassId{2});
+  EXPECT_EQ(definition.options.number_of_classes, 3);
+  EXPECT_EQ(definition.options.unlabelled_class_id, 2);
+}
+
+TEST_F(MapDefinition, wrongLabelSourcesAreNamed) {
+  const std::string first = section("labelSource_00");
+  EXPECT_THAT(errorOf(first + "source = network\n"), HasSubstr("sensor_label is missing"));
+  EXPECT_THAT(errorOf(first + "sensor_label = a\nsource = network\n"),
+              HasSubstr("needs the key network"));
+  EXPECT_THAT(
+      errorOf(first + "sensor_label = a\nsource = network\nnetwork = nowhere.yaml\n"),
+      AllOf(HasSubstr("map.ini [MappingApplication_semanticContinuousMap_00_labelSource_00]"),
+            HasSubstr("network = nowhere.yaml: no such file")));
+  EXPECT_THAT(errorOf(first + "sensor_label = a\nsource = label_image\n"),
+              HasSubstr("needs the key label_image"));
+  EXPECT_THAT(errorOf(first + "sensor_label = a\nsource = pixel_labels\nlabel_image = b\n"),
+              HasSubstr("label_image = b has no meaning"));
+  EXPECT_THAT(errorOf(first + "sensor_label = a\nsource = magic\n"),
+              HasSubstr("network | label_image | pixel_labels | point_labels"));
+  EXPECT_THAT(errorOf(first + "sensor_label = a\nsource = label_image\nlabel_image = b\n" +
+                      section("labelSource_01") + "sensor_label = a\nsource = pixel_labels\n"),
+              HasSubstr("sensor_label = a has two label sources"));
+  EXPECT_THAT(errorOf(section("labelOpts") + "max_time_offset = -1\n"),
+              HasSubstr("max_time_offset = -1"));
+  EXPECT_THAT(errorOf(section("labelOpts") + "temperature = 0\n"), HasSubstr("temperature = 0"));
+}
+
+TEST_F(MapDefinition, aLabelSourceBehindAGapIsNotOverlooked) {
+  EXPECT_THAT(load(section("labelSource_01") + "sensor_label = a\n").unknownKeys(),
+              ElementsAre(HasSubstr("labelSource_01] sensor_label")));
 }
 
 TEST_F(MapDefinition, missingLabelSetIsNamed) {
@@ -251,8 +327,12 @@ TEST(IniReference, listsEveryKeyWithItsDefault) {
   text << std::ifstream(CSOM_SOURCE_DIR "/docs/ini-reference.md").rdbuf();
   const Options defaults;
   visitOptions(defaults, [&](const std::string& key, const auto& field, auto, auto) {
-    if (key == "number_of_classes") return;
+    if (comesFromLabelSet(key)) return;
     EXPECT_THAT(text.str(), HasSubstr("| `" + key + "` | " + toString(field) + " |"));
+  });
+  visitLabelOptions(LabelOptions(), [&](const std::string& key, const auto& field, auto, auto) {
+    const std::string value = toString(field).empty() ? "none" : toString(field);
+    EXPECT_THAT(text.str(), HasSubstr("| `" + key + "` | " + value + " |"));
   });
   const CSemanticContinuousMap map;
   const auto& likelihood = map.likelihoodOptions;

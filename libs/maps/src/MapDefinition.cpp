@@ -5,6 +5,7 @@
 #include <mrpt/config/CConfigFile.h>
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -27,6 +28,7 @@ constexpr const char* kGenericKeys[] = {"enableSaveAs3DObject", "enableObservati
 
 void readCoreOptions(IniSection& section, Options& options) {
   visitOptions(options, [&](const char* key, auto& field, const char*, const char*) {
+    if (std::strcmp(key, "unlabelled_class_id") == 0) return;  // the label set says so, by a name
     section.read(key, field);
   });
 }
