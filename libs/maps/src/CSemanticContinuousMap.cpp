@@ -188,7 +188,8 @@ void CSemanticContinuousMap::internal_clear() {
 
 LastInsertion CSemanticContinuousMap::lastInsertion() const {
   // MRPT's insertObservation() does not even ask a map that is switched off.
-  if (!genericMapParams.enableObservationInsertion) return {LastInsertion::Outcome::Disabled, {}};
+  if (!genericMapParams.enableObservationInsertion)
+    return {LastInsertion::Outcome::Disabled, {}, {}};
   return last_insertion_;
 }
 
@@ -206,6 +207,7 @@ bool CSemanticContinuousMap::internal_insertObservation(
     const mrpt::obs::CObservation& observation,
     const std::optional<const mrpt::poses::CPose3D>& robot_pose) {
   const LabelRules rules = labelRules();
+  last_insertion_ = {};
   std::optional<std::vector<AdaptedScan>> adapted;
   try {
     const Eigen::Isometry3d pose = roundedPose(robot_pose.value_or(mrpt::poses::CPose3D()));
@@ -213,21 +215,22 @@ bool CSemanticContinuousMap::internal_insertObservation(
   } catch (const std::exception& error) {
     if (adapter_) insertScans(adapter_->takeFinished());
     // An application must not stop because of one damaged observation.
-    last_insertion_ = {LastInsertion::Outcome::Damaged, oneLine(error.what())};
+    last_insertion_.outcome = LastInsertion::Outcome::Damaged;
+    last_insertion_.reason = oneLine(error.what());
     noteDamaged(observation, last_insertion_.reason);
     return false;
   }
   if (!adapted) {
-    last_insertion_ = {LastInsertion::Outcome::NotTaken, {}};
+    last_insertion_.outcome = LastInsertion::Outcome::NotTaken;
     ++statistics_.not_taken[observationName(observation)];
     return false;
   }
   const bool used = insertScans(*adapted);
   if (adapted->empty())
-    last_insertion_ = {LastInsertion::Outcome::Kept, {}};
+    last_insertion_.outcome = LastInsertion::Outcome::Kept;
   else
-    last_insertion_ = {used ? LastInsertion::Outcome::Inserted : LastInsertion::Outcome::NoPoints,
-                       {}};
+    last_insertion_.outcome =
+        used ? LastInsertion::Outcome::Inserted : LastInsertion::Outcome::NoPoints;
   return used || adapted->empty();
 }
 
@@ -249,6 +252,7 @@ void CSemanticContinuousMap::setLabelledScanObserver(LabelledScanObserver observ
 }
 
 void CSemanticContinuousMap::flush() {
+  last_insertion_ = {};
   if (adapter_) insertScans(adapter_->flush());
 }
 
@@ -269,6 +273,7 @@ bool CSemanticContinuousMap::insertScan(const AdaptedScan& adapted) {
   if (report.points == report.rejectedTotal()) {
     ++statistics_.without_points;
     statistics_.unused += report;
+    last_insertion_.without_points.push_back(adapted.observation_class);
     return false;
   }
   ++statistics_.inserted;

@@ -22,11 +22,14 @@ using mrpt::poses::CPose3D;
 /// Not worth a warning: logs hold many kinds of observations.
 constexpr char kOtherKind[] = "of a kind that this map does not take";
 
+constexpr char kNoPoints[] = "none of its points can be used";
+
 std::string counted(std::size_t count, const std::string& things) {
   return std::to_string(count) + " " + things;
 }
 
-std::string whyNotInserted(const LastInsertion& last) {
+/// Nothing if the observation was taken.
+std::optional<std::string> whyNotTaken(const LastInsertion& last) {
   switch (last.outcome) {
     case LastInsertion::Outcome::Damaged:
       return "damaged: " + last.reason;
@@ -34,11 +37,12 @@ std::string whyNotInserted(const LastInsertion& last) {
       return "the map's enableObservationInsertion is false";
     case LastInsertion::Outcome::NotTaken:
       return kOtherKind;
-    case LastInsertion::Outcome::NoPoints:
-    case LastInsertion::Outcome::Inserted:  // not asked for these
+    case LastInsertion::Outcome::NoPoints:  // counted with the scans that it completed
+    case LastInsertion::Outcome::Inserted:
+    case LastInsertion::Outcome::Kept:
       break;
   }
-  return "none of its points can be used";
+  return std::nullopt;
 }
 
 /// Observations that say where the robot is, not what is around it.
@@ -48,7 +52,8 @@ bool tellsPose(const mrpt::obs::CObservation& observation) {
 }
 
 CSemanticContinuousMap::TMapDefinition definitionOf(const std::string& file) {
-  if (std::filesystem::is_directory(file)) throw ConfigError(file + ": is a folder, not an ini file");
+  if (std::filesystem::is_directory(file))
+    throw ConfigError(file + ": is a folder, not an ini file");
   try {
     return CSemanticContinuousMap::definitionFromIni(file);
   } catch (const FileError&) {
@@ -69,8 +74,10 @@ CSemanticContinuousMap::Ptr emptyMap(const MappingRequest& request) {
                       "; docs/ini-reference.md lists all");
   }
   if (request.threads) definition.options.threads = *request.threads;
+  if (request.label_cache) definition.labelOpts.label_cache = *request.label_cache;
   auto map = std::make_shared<CSemanticContinuousMap>(definition);
   map->announce_damaged = false;  // it is reported as refused
+  map->openLabelSources();
   return map;
 }
 
@@ -83,6 +90,7 @@ class MappingRun {
 
   MappingResult run() {
     result_.map = emptyMap(request_);
+    result_.map->setLabelledScanObserver([this](const LabelledScan& scan) { keepSeen(scan); });
     // All that can be wrong with the input is found out before the long part starts.
     std::vector<PoseSource> poses;
     std::vector<RawlogSurvey> surveys;
@@ -95,6 +103,7 @@ class MappingRun {
       result_.logs.push_back({surveys[i].file, surveys[i].end, poses[i].choice()});
       mapLog(surveys[i], poses[i]);
     }
+    result_.map->setLabelledScanObserver({});
     finish();
     return std::move(result_);
   }
@@ -104,6 +113,9 @@ class MappingRun {
   void mapLog(const RawlogSurvey& survey, PoseSource& poses);
   void mapEntry(const RawlogEntry& entry, PoseSource& poses);
   void insert(const mrpt::obs::CObservation& observation, const CPose3D& pose);
+  void flush();
+  void noteScans(std::size_t scans_before, double elapsed_ms);
+  void keepSeen(const LabelledScan& scan);
   void keep(const mrpt::obs::CObservation::Ptr& observation, const CPose3D& pose);
   void refuse(const mrpt::obs::CObservation& observation, const std::string& reason) {
     ++result_.refused[{detail::shortName(observation.GetRuntimeClass()->className), reason}];
@@ -153,6 +165,7 @@ void MappingRun::mapLog(const RawlogSurvey& survey, PoseSource& poses) {
     if (on_progress_)
       on_progress_({survey.file, entries_done_, entries_, result_.map->scans().size()});
   }
+  flush();
 }
 
 void MappingRun::mapEntry(const RawlogEntry& entry, PoseSource& poses) {
@@ -177,16 +190,39 @@ void MappingRun::insert(const mrpt::obs::CObservation& observation, const CPose3
   map.insertObservation(observation, pose);
   const std::chrono::duration<double, std::milli> elapsed =
       std::chrono::steady_clock::now() - start;
+  noteScans(scans_before, elapsed.count());
 
-  const std::size_t added = map.scans().size() - scans_before;
-  for (std::size_t i = 0; i < added; ++i)
-    result_.insert_ms.push_back(elapsed.count() / static_cast<double>(added));
-  if (added > 0) {
-    const auto rotation = pose.getRotationMatrix();
-    up_ += Eigen::Vector3d(rotation(0, 2), rotation(1, 2), rotation(2, 2));
+  const LastInsertion last = map.lastInsertion();
+  if (const auto reason = whyNotTaken(last)) {
+    refuse(observation, *reason);
     return;
   }
-  refuse(observation, whyNotInserted(map.lastInsertion()));
+  const auto rotation = pose.getRotationMatrix();
+  up_ += Eigen::Vector3d(rotation(0, 2), rotation(1, 2), rotation(2, 2));
+}
+
+/// What one log leaves waiting is not joined with the images of the next.
+void MappingRun::flush() {
+  const std::size_t scans_before = result_.map->scans().size();
+  const auto start = std::chrono::steady_clock::now();
+  result_.map->flush();
+  const std::chrono::duration<double, std::milli> elapsed =
+      std::chrono::steady_clock::now() - start;
+  noteScans(scans_before, elapsed.count());
+}
+
+void MappingRun::noteScans(std::size_t scans_before, double elapsed_ms) {
+  for (const std::string& name : result_.map->lastInsertion().without_points)
+    ++result_.refused[{name, kNoPoints}];
+  const std::size_t added = result_.map->scans().size() - scans_before;
+  for (std::size_t i = 0; i < added; ++i)
+    result_.insert_ms.push_back(elapsed_ms / static_cast<double>(added));
+}
+
+void MappingRun::keepSeen(const LabelledScan& scan) {
+  if (!result_.first_labelled) result_.first_labelled = scan;
+  if (!result_.middle_labelled && 2 * entries_done_ >= entries_) result_.middle_labelled = scan;
+  result_.last_labelled = scan;
 }
 
 void MappingRun::keep(const mrpt::obs::CObservation::Ptr& observation, const CPose3D& pose) {

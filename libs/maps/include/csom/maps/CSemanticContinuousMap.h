@@ -42,11 +42,14 @@ struct LastInsertion {
     Kept,      ///< an image, or a scan that waits for its images
     NotTaken,  ///< of a kind that carries no points; also before the first insertion
     Damaged,
-    NoPoints,  ///< taken, but no point of it could be used
+    NoPoints,  ///< taken, but no point of it, or of what it completed, could be used
     Disabled,  ///< by enableObservationInsertion = false; nothing is inserted then
   };
   Outcome outcome = Outcome::NotTaken;
   std::string reason;  ///< of Damaged: what is wrong with it, one line
+  /// Classes of the scans that were complete now, this one or earlier ones, and had no point that
+  /// could be used.
+  std::vector<std::string> without_points;
 };
 
 /// A continuous semantic occupancy map (see csom::SemanticMap) that MRPT's applications fill, save
@@ -211,7 +214,7 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   /// Replaces all but the MRPT-side options. Throws before it changes anything.
   void setContent(SemanticMap map, std::shared_ptr<const SharedLabels> labels,
                   std::vector<ScanRecord> scans, std::map<std::string, std::string> meta);
-  /// Both return true if any point was used.
+  /// Both return true if any point was used, and note in last_insertion_ where none was.
   bool insertScans(const std::vector<AdaptedScan>& adapted);
   bool insertScan(const AdaptedScan& adapted);
   void noteDamaged(const mrpt::obs::CObservation& observation, const std::string& why);

@@ -23,6 +23,7 @@ struct MappingRequest {
   std::string config_file;          ///< ini with a section [MappingApplication]
   std::optional<PoseChoice> poses;  ///< nothing: the best that each log holds
   std::optional<int> threads;       ///< overrides the option of the ini
+  std::optional<std::string> label_cache;  ///< folder, overrides the option of the ini
   bool keep_key_frames = false;     ///< fill MappingResult::key_frames, which holds all in memory
 };
 
@@ -48,6 +49,11 @@ struct MappingResult {
   std::size_t observations_read = 0;              ///< robot poses and odometry are not counted
   /// Observations that did not reach the map, by (class, reason).
   std::map<std::pair<std::string, std::string>, std::size_t> refused;
+  /// Scans that cameras labelled, for pictures: the first of the run, the first of its second half,
+  /// the last. Nothing where there was none.
+  std::optional<LabelledScan> first_labelled;
+  std::optional<LabelledScan> middle_labelled;
+  std::optional<LabelledScan> last_labelled;
   std::vector<std::string> warnings;  ///< one line each
   /// The observations that had a pose, with it: MRPT's observations2map makes the same map of it.
   mrpt::maps::CSimpleMap key_frames;
