@@ -40,7 +40,7 @@ void requireSize(const cv::Mat& image, cv::Size size) {
 
 struct Dot {
   Eigen::Vector2d pixel;
-  double depth;
+  double distance;  ///< from the camera
   bool has_label;
   std::array<std::uint8_t, 3> color;
 };
@@ -56,10 +56,10 @@ std::vector<Dot> dotsOf(const CameraView& view, int view_number,
     if (!pixel || !view.projection->contains(*pixel)) continue;
     const ClassId k = labelled.classes[i];
     const bool has_label = labelled.fates[i] == PointFate::Labelled && k < colors.size();
-    dots.push_back({*pixel, point.z(), has_label, has_label ? colors[k] : kWithoutLabel});
+    dots.push_back({*pixel, point.norm(), has_label, has_label ? colors[k] : kWithoutLabel});
   }
   std::stable_sort(dots.begin(), dots.end(),
-                   [](const Dot& a, const Dot& b) { return a.depth > b.depth; });
+                   [](const Dot& a, const Dot& b) { return a.distance > b.distance; });
   return dots;
 }
 
