@@ -17,6 +17,7 @@
 #include <optional>
 
 #include "CommandLine.h"
+#include "MapRecord.h"
 #include "OutputFolder.h"
 #include "OutputPaths.h"
 #include "Progress.h"
@@ -31,6 +32,7 @@ struct MapArguments {
   std::string output;
   std::string poses;
   std::optional<int> threads;
+  std::string label_cache;
   std::string simplemap;
   bool no_html = false;
   bool json = false;
@@ -42,6 +44,7 @@ MappingRequest requestOf(const MapArguments& arguments) {
   request.config_file = arguments.config;
   if (!arguments.poses.empty()) request.poses = PoseChoice::parse(arguments.poses);
   request.threads = arguments.threads;
+  if (!arguments.label_cache.empty()) request.label_cache = arguments.label_cache;
   request.keep_key_frames = !arguments.simplemap.empty();
   return request;
 }
@@ -51,51 +54,6 @@ MappingResult mapWithProgress(const MappingRequest& request) {
   return mapLogs(request, [&](const MappingProgress& now) {
     progress.update(now.entries_done, now.entries, formatCount(now.scans) + " scans");
   });
-}
-
-std::string poseSourcesOf(const MappingResult& result) {
-  std::vector<std::string> names;
-  for (const MappedLog& log : result.logs) {
-    const std::string name = log.poses.toString();
-    if (names.empty() || names.back() != name) names.push_back(name);
-  }
-  return detail::joined(names);
-}
-
-std::vector<Parameter> parametersOf(const CSemanticContinuousMap& map) {
-  std::vector<Parameter> parameters = parametersOf(map.map().options());
-  const auto& labels = map.insertionOptions;
-  parameters.push_back(
-      {"point_labels", toString(labels.point_labels), "", "none | intensity | color"});
-  parameters.push_back(
-      {"unlabelled_class", labels.unlabelled_class, "", "class of points without a label"});
-  parameters.push_back({"scan_2d_class", labels.scan_2d_class, "", "class of 2-D scans"});
-  return parameters;
-}
-
-RunRecord recordOf(const MapArguments& arguments, const MappingResult& result, double seconds) {
-  RunRecord record;
-  record.program_version = CSOM_VERSION;
-  record.command = commandLine();
-  record.inputs = arguments.logs;
-  record.config_file = arguments.config;
-  record.parameters = parametersOf(*result.map);
-  record.pose_source = poseSourcesOf(result);
-  record.up = result.up;
-  record.label_set = result.map->labels().name();
-  record.observations_read = result.observations_read;
-  const auto& scans = result.map->scans();
-  for (std::size_t i = 0; i < scans.size(); ++i)
-    record.scans.push_back({scans[i], result.insert_ms.at(i)});
-  const InsertionStatistics& statistics = result.map->statistics();
-  record.unused = statistics.unused;
-  record.label_rejects = {statistics.labels.missing, statistics.labels.unknown,
-                          statistics.labels.ignored, statistics.labels.ambiguous};
-  for (const auto& [what, count] : result.refused)
-    record.refused.push_back({what.first, what.second, count});
-  record.warnings = result.warnings;
-  record.wall_seconds = seconds;
-  return record;
 }
 
 MapDocument documentOf(const RunRecord& record, const MappingResult& result) {
@@ -155,7 +113,7 @@ void runMap(const MapArguments& arguments) {
   for (const std::string& warning : result.warnings)
     std::fprintf(stderr, "csom: warning: %s\n", detail::printable(warning).c_str());
 
-  const RunRecord record = recordOf(arguments, result, elapsed.count());
+  const RunRecord record = recordOf(request, result, elapsed.count());
   const MapDocument document = documentOf(record, result);
   StagedResults results(folder);
   saveMap(document, results.file("map.csom"));
@@ -194,6 +152,10 @@ void addMapCommand(CLI::App& program) {
   command->add_option(
       "--threads", arguments->threads,
       "Threads, 0 = all processors; does not change the map (default: as in the ini)");
+  command->add_option(
+      "--label-cache", arguments->label_cache,
+      "Folder in which what networks say about images is kept, so that the next run "
+      "needs no network (default: as in the ini)");
   command->add_option("--write-simplemap", arguments->simplemap,
                       "Also write the observations with their poses as a simplemap, of which "
                       "observations2map makes the same map");
