@@ -53,15 +53,16 @@ struct NetworkDescription {
 /// A network loaded by cv::dnn. Runs on the processor with OpenCV's threads. Not thread-safe.
 class SegmentationNetwork {
  public:
-  /// Throws FileError if the model cannot be read, or is damaged.
+  /// Throws FileError if the model cannot be read, is damaged, does not take the described input, or
+  /// does not have the described output.
   explicit SegmentationNetwork(NetworkDescription description);
   ~SegmentationNetwork();
 
   const NetworkDescription& description() const { return description_; }
 
   /// Scores for each image (CV_8UC3 in BGR order, or CV_8UC1), up to description().batch of them in
-  /// one run. `class_of` maps channel numbers. Throws FileError naming the model if its output does
-  /// not have the described layout.
+  /// one run. `class_of` maps channel numbers. Throws FileError naming the model if its values are
+  /// not those of the described layout, std::invalid_argument for other images.
   std::vector<std::shared_ptr<const SemanticImage>> segment(const std::vector<cv::Mat>& images,
                                                             const RawToClass& class_of);
 
