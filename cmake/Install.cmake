@@ -16,7 +16,7 @@ foreach(library ${csom_libraries})
 endforeach()
 
 install(DIRECTORY config/ DESTINATION ${CSOM_INSTALL_DATADIR}
-  FILES_MATCHING PATTERN "*.ini" PATTERN "*.yaml")
+  FILES_MATCHING PATTERN "*.ini" PATTERN "*.yaml" PATTERN "*.onnx")
 install(DIRECTORY docs/ DESTINATION ${csom_doc_folder})
 install(FILES README.md CHANGELOG.md DESTINATION ${csom_doc_folder} OPTIONAL)
 # Debian's name for the licence file of a package.
