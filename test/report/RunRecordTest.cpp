@@ -188,7 +188,7 @@ TEST(RunRecordTest, CountsWhatBecameOfImagesScansAndPoints) {
     "clock_restarts": 2,
     "points": {"labelled": 6000, "outside_view": 10000, "hidden": 1000, "at_edge": 500,
                "low_confidence": 250, "ignored": 200, "unknown": 50, "kept_unlabelled": 9},
-    "seconds": {"network": 10.0, "image_decoding": 0.5, "labelling": 1.5, "waiting": 0.25},
+    "seconds": {"network": 10.0, "image_decoding": 0.5, "labelling": 1.5},
     "added_share": 0.25,
     "cameras": [
       {"sensor_label": "left", "source": "network",

@@ -113,8 +113,6 @@ void writeSeconds(std::ostream& page, const RunRecord& record) {
   page << "<p>Decoding images took " << formatDuration(seconds.image_decoding)
        << ", projecting points and judging what is visible " << formatDuration(seconds.labelling)
        << ". ";
-  if (seconds.waiting > 0)
-    page << "Mapping waited " << formatDuration(seconds.waiting) << " for labels. ";
   if (const auto added = addedShare(record))
     page << "The network alone took " << formatDuration(seconds.network)
          << "; the rest of the run added " << formatShare(*added) << " to that.";

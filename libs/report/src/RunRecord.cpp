@@ -155,8 +155,7 @@ Json cameraLabelsJson(const RunRecord& record) {
           {"seconds",
            {{"network", labels.seconds.network},
             {"image_decoding", labels.seconds.image_decoding},
-            {"labelling", labels.seconds.labelling},
-            {"waiting", labels.seconds.waiting}}},
+            {"labelling", labels.seconds.labelling}}},
           {"added_share", added ? Json(*added) : Json()},
           {"cameras", cameras}};
 }

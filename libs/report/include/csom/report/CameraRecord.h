@@ -60,7 +60,6 @@ struct CameraSeconds {
   double network = 0;         ///< the network alone
   double image_decoding = 0;  ///< files and JPEG to pixels
   double labelling = 0;       ///< projection, visibility and edges
-  double waiting = 0;         ///< for labels that the map needed before they were there
 };
 
 struct CameraLabels {
