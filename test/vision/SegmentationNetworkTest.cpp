@@ -27,13 +27,6 @@ ClassId sameNumber(std::uint32_t channel) {
   return static_cast<ClassId>(channel);
 }
 
-cv::Mat randomImage(cv::Size size, int type, unsigned seed) {
-  cv::Mat image(size, type);
-  cv::RNG random(seed);
-  random.fill(image, cv::RNG::UNIFORM, 0, 256);
-  return image;
-}
-
 /// From red, green and blue: four channels.
 TinyModel colorModel(cv::Size size) {
   TinyModel model;

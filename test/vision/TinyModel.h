@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A real ONNX file whose output is known: averages over cells, times a matrix.
+// A real ONNX file whose output is known: averages over cells, times a matrix. And images for it.
 #pragma once
 
 #include <cstdint>
 #include <cstring>
+#include <opencv2/core.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +38,13 @@ class ProtobufMessage {
 
   std::string bytes_;
 };
+
+inline cv::Mat randomImage(cv::Size size, int type, unsigned seed) {
+  cv::Mat image(size, type);
+  cv::RNG random(seed);
+  random.fill(image, cv::RNG::UNIFORM, 0, 256);
+  return image;
+}
 
 /// score_k = Σ_c weight[k][c] · mean of channel c over the cell + bias[k].
 struct TinyModel {

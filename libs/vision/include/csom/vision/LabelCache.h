@@ -12,8 +12,8 @@ namespace csom {
 /// A folder of PNG files, one an image: the bytes of a ScoreImage (or of an index map), so that a
 /// second run needs no network and makes the same map bit for bit. A file's name is a hash of the
 /// image's pixels, of the model's bytes and of what the description says about input and output:
-/// another image or another network never finds it. Files of several processes can share a folder:
-/// each is complete or absent.
+/// another image or another network never finds it. Several processes can share a folder: each file
+/// is complete or absent. Immutable, hence thread-safe.
 class LabelCache {
  public:
   /// `folder` is created if missing. Throws FileError if it cannot be, or if the model cannot be
@@ -22,7 +22,7 @@ class LabelCache {
 
   /// Null if the image is not in the cache, or its file is damaged (then it is made anew).
   std::shared_ptr<const SemanticImage> find(const cv::Mat& image, const RawToClass& class_of) const;
-  /// Throws FileError.
+  /// Keeps what the network said about an image. Throws FileError.
   void store(const cv::Mat& image, const SemanticImage& labels) const;
 
  private:
