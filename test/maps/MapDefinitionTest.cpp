@@ -330,7 +330,8 @@ TEST(IniReference, listsEveryKeyWithItsDefault) {
     if (comesFromLabelSet(key)) return;
     EXPECT_THAT(text.str(), HasSubstr("| `" + key + "` | " + toString(field) + " |"));
   });
-  visitLabelOptions(LabelOptions(), [&](const std::string& key, const auto& field, auto, auto) {
+  const LabelOptions label_options;
+  visitLabelOptions(label_options, [&](const std::string& key, const auto& field, auto, auto) {
     const std::string value = toString(field).empty() ? "none" : toString(field);
     EXPECT_THAT(text.str(), HasSubstr("| `" + key + "` | " + value + " |"));
   });
