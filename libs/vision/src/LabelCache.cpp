@@ -146,10 +146,12 @@ std::shared_ptr<const SemanticImage> LabelCache::find(const cv::Mat& image,
 }
 
 void LabelCache::store(const cv::Mat& image, const SemanticImage& labels) const {
+  const std::string file = fileOf(image);
   std::vector<std::uint8_t> bytes;
   // With OpenCV's settings: others make smaller files, but take longer to read.
-  cv::imencode(".png", detail::storedForm(labels), bytes);
-  writeAtOnce(fileOf(image), bytes);
+  if (!cv::imencode(".png", detail::storedForm(labels), bytes))
+    throw FileError(file, "cannot be written: the output of the network is too large for a PNG");
+  writeAtOnce(file, bytes);
 }
 
 }  // namespace csom

@@ -53,8 +53,8 @@ struct NetworkDescription {
 /// A network loaded by cv::dnn. Runs on the processor with OpenCV's threads. Not thread-safe.
 class SegmentationNetwork {
  public:
-  /// Throws FileError if the model cannot be read, is damaged, does not take the described input, or
-  /// does not have the described output.
+  /// Throws FileError if the model cannot be read, is damaged, does not take the described input,
+  /// or does not have the described output.
   explicit SegmentationNetwork(NetworkDescription description);
   ~SegmentationNetwork();
 
