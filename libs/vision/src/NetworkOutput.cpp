@@ -34,6 +34,7 @@ cv::Mat indexImage(const NetworkDescription& network, const cv::Mat& grid, cv::S
     return static_cast<int>(std::clamp(std::floor(coordinate + 0.5), 0.0, cells - 1.0));
   };
   std::vector<int> columns;
+  columns.reserve(static_cast<std::size_t>(image.width));
   for (int u = 0; u < image.width; ++u)
     columns.push_back(nearest(u * placement.scale_x + placement.offset_x, grid.cols));
   cv::Mat index(image, CV_16UC1);
@@ -55,6 +56,7 @@ std::shared_ptr<const SemanticImage> semanticImage(const NetworkDescription& net
     return std::make_shared<LabelImage>(stored, class_of);
   }
   std::vector<ClassId> class_of_channel;
+  class_of_channel.reserve(static_cast<std::size_t>(network.output_channels));
   for (int channel = 0; channel < network.output_channels; ++channel)
     class_of_channel.push_back(class_of(static_cast<std::uint32_t>(channel)));
   const cv::Size grid(stored.cols, stored.rows / std::max(1, network.output_channels));

@@ -184,6 +184,7 @@ cv::Mat ScoreImage::classes() const {
   const cv::Size grid = gridSize();
   const cv::Mat best = bestChannels();
   std::vector<Neighbours> columns;
+  columns.reserve(static_cast<std::size_t>(image_size_.width));
   for (int u = 0; u < image_size_.width; ++u)
     columns.push_back(neighboursAt(u * placement_.scale_x + placement_.offset_x, grid.width));
   cv::Mat classes(image_size_, CV_16UC1);
