@@ -33,9 +33,9 @@ struct PointLabellingOptions {
   /// Reject points that something nearer hides from the camera.
   bool visibility = true;
   /// A point is only hidden by what is nearer to the camera by more than this [m].
-  double visibility_margin = 0.5;
-  /// Points within so many pixels of a label border are rejected if the depth jumps there; 0 keeps
-  /// them.
+  double visibility_margin = 0.7;
+  /// Labels may bleed so many pixels over jumps of the depth (see pointsAtEdges()); points whose
+  /// label may have are rejected. 0 keeps them all.
   double edge_margin = 2;
 
   /// Throws OptionError that names the key.
@@ -47,9 +47,9 @@ enum class PointFate : std::uint8_t {
   Labelled,
   OutsideView,    ///< in no camera's image
   Hidden,         ///< something nearer hides it from the camera
-  AtEdge,         ///< near a label border where the depth jumps
+  AtEdge,         ///< its label may be that of something beside it
   LowConfidence,  ///< below min_confidence, and dropped
-  Ignored,        ///< the label set ignores what the pixel shows
+  Ignored,        ///< the label set ignores what the pixel shows, or it shows free space (sky)
   Unknown,        ///< the label set does not know what the pixel shows
 };
 constexpr std::size_t kPointFates = 7;
@@ -64,11 +64,11 @@ struct CameraView {
 };
 
 struct LabelledPoints {
-  std::vector<PointFate> fates;   ///< one a point
-  std::vector<int> views;         ///< one a point: the view that decided; −1 outside of all views
-  std::vector<ClassId> classes;   ///< one a point; the best class where the fate is Labelled
-  /// Empty if every labelled point is sure of its class, else points × number_of_classes, row-major:
-  /// a distribution for every labelled point, 0 for the others.
+  std::vector<PointFate> fates;  ///< one a point
+  std::vector<int> views;        ///< one a point: the view that decided; −1 outside of all views
+  std::vector<ClassId> classes;  ///< one a point; the best class where the fate is Labelled
+  /// Empty if every labelled point is sure of its class, else points × number_of_classes,
+  /// row-major: a distribution for every labelled point, 0 for the others.
   std::vector<float> scores;
 
   FateCounts counts() const;
