@@ -16,6 +16,7 @@ float classEntropy(const std::vector<double>& class_mass) {
     if (mass > 0) ++present;
   }
   if (present == 0) return 1.0F;
+  if (present == 1) return 0.0F;  // as the equations say, without their logarithms
   const auto classes = static_cast<double>(class_mass.size());
   const double proportion = (all - max) / all;
   const double spread = std::log(present) / std::log(classes);

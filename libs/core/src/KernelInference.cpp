@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 
 #include "BlockNeighbours.h"
 #include "BlockWindow.h"
@@ -37,9 +38,12 @@ std::vector<LaneGroup> laneGroups(int block_depth) {
           group.voxel[l] = side > 1
                                ? VoxelIndex{x + (lane & 1), y + ((lane >> 1) & 1), z + (lane >> 2)}
                                : VoxelIndex{x, y, z};
-          group.x[l] = static_cast<float>(group.voxel[l].x) + 0.5F;
-          group.y[l] = static_cast<float>(group.voxel[l].y) + 0.5F;
-          group.z[l] = static_cast<float>(group.voxel[l].z) + 0.5F;
+          const auto centre = [](std::int32_t voxel) {
+            return detail::fixedPoint(voxel) + detail::kFixedPointVoxel / 2;
+          };
+          group.x[l] = centre(group.voxel[l].x);
+          group.y[l] = centre(group.voxel[l].y);
+          group.z[l] = centre(group.voxel[l].z);
         }
         groups.push_back(group);
       }
@@ -59,6 +63,7 @@ class Inference {
       : scan_(scan),
         options_(options),
         rows_(scan),
+        points_(scan),
         groups_(laneGroups(scan.block_depth)),
         neighbours_(detail::extendedBlock(options.context_neighbours)),
         blocks_per_chunk_(kChunkSide >> (scan.block_depth - 1)),
@@ -93,6 +98,7 @@ class Inference {
  private:
   /// Blocks next to each other, as offsets into the window's starts from those of a block.
   struct RowOfBlocks {
+    std::ptrdiff_t row;  ///< the same for the window's rows
     std::ptrdiff_t first;
     std::ptrdiff_t last;
   };
@@ -152,22 +158,23 @@ class Inference {
   void fillChunk(const ChunkTask& task, Scratch& scratch) const {
     const BlockIndex corner{task.chunk.x * blocks_per_chunk_, task.chunk.y * blocks_per_chunk_,
                             task.chunk.z * blocks_per_chunk_};
-    scratch.window.moveTo(rows_, corner, blocks_per_chunk_, reach_, block_side_);
+    scratch.window.moveTo(rows_, corner, blocks_per_chunk_, reach_);
     for (std::size_t i = task.begin; i < task.end; ++i) {
       const FilledBlock& block = filled_[i];
       const BlockIndex in_chunk{block.index.x - corner.x, block.index.y - corner.y,
                                 block.index.z - corner.z};
-      const auto side = static_cast<float>(block_side_);
-      const detail::BlockPlace place{static_cast<float>(in_chunk.x) * side,
-                                     static_cast<float>(in_chunk.y) * side,
-                                     static_cast<float>(in_chunk.z) * side, side};
+      const int depth_bits = scan_.block_depth - 1;
+      const detail::BlockPlace place{detail::fixedPoint(block.index.x) << depth_bits,
+                                     detail::fixedPoint(block.index.y) << depth_bits,
+                                     detail::fixedPoint(block.index.z) << depth_bits,
+                                     detail::fixedPoint(block_side_)};
       const float entropy = classEntropyOf(block, scratch.class_mass);
       const float length = inVoxels(kernelLength(entropy, options_));
       findNeighbourhood(in_chunk, entropy, length, scratch);
-      detail::selectNearby(scratch.window, scratch.ranges, place, length, scratch.selected);
+      detail::selectNearby(points_, scratch.ranges, place, length, scratch.selected);
       for (const LaneGroup& group : groups_) {
         scratch.sums.reset();
-        detail::addKernelMass(options_.kernel, scratch.window, scratch.selected, scan_, group,
+        detail::addKernelMass(options_.kernel, points_, scratch.selected, scan_.scores, group,
                               place, length, scratch.sums);
         store(block.index, group, scratch);
       }
@@ -198,7 +205,9 @@ class Inference {
                                                : rowsOfExtendedBlock(entropy, scratch);
     scratch.ranges.clear();
     const std::uint32_t* const here = scratch.window.startsAt(block.x, block.y, block.z);
+    const std::uint8_t* const observed = scratch.window.observedAt(block.y, block.z);
     for (const RowOfBlocks& row : rows) {
+      if (observed[row.row] == 0) continue;
       const std::uint32_t begin = here[row.first];
       const std::uint32_t end = here[row.last + 1];
       if (begin < end) scratch.ranges.push_back({begin, end});
@@ -220,7 +229,8 @@ class Inference {
         int x = -1;
         while (x < reach_ && gapSquared(x + 1) + gapSquared(y) + gapSquared(z) < limit) ++x;
         if (x >= 0)
-          rows.push_back({scratch.window.stride(-x, y, z), scratch.window.stride(x, y, z)});
+          rows.push_back({scratch.window.rowStride(y, z), scratch.window.stride(-x, y, z),
+                          scratch.window.stride(x, y, z)});
       }
     return rows;
   }
@@ -233,7 +243,7 @@ class Inference {
     if (!rows.empty()) return rows;
     for (const detail::BlockOffset& d : neighbours_) {
       const std::ptrdiff_t at = scratch.window.stride(d.x, d.y, d.z);
-      if (!alone || d.kind() == 0) rows.push_back({at, at});
+      if (!alone || d.kind() == 0) rows.push_back({scratch.window.rowStride(d.y, d.z), at, at});
     }
     return rows;
   }
@@ -245,17 +255,16 @@ class Inference {
   }
 
   void store(const BlockIndex& block, const LaneGroup& group, Scratch& scratch) const {
-    if (scratch.sums.empty()) return;
     const int side = block_side_;
     const std::vector<ClassId>& classes = scratch.sums.finish();
     const std::size_t lanes = side > 1 ? kLanes : 1;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const VoxelIndex& v = group.voxel[lane];
-      scratch.runs.begin(
-          indexInChunk({block.x * side + v.x, block.y * side + v.y, block.z * side + v.z}));
-      for (const ClassId k : classes)
-        scratch.runs.add(k, options_.kernel_scale * scratch.sums.mass(k, lane));
-      scratch.runs.end();
+      scratch.runs.add(
+          indexInChunk({block.x * side + v.x, block.y * side + v.y, block.z * side + v.z}),
+          classes.data(), classes.size(), [&](ClassId k) {
+            return detail::toCount(options_.kernel_scale * scratch.sums.mass(k, lane));
+          });
     }
   }
 
@@ -267,6 +276,7 @@ class Inference {
   const PreparedScan& scan_;
   const Options& options_;
   detail::BlockRows rows_;
+  detail::PointColumns points_;
   std::vector<LaneGroup> groups_;
   std::vector<detail::BlockOffset> neighbours_;
   std::vector<FilledBlock> filled_;
@@ -296,6 +306,8 @@ ScanIncrements countPoints(const PreparedScan& scan, const Options& options, Sca
   ScanIncrements out;
   detail::VoxelRuns runs;
   std::vector<double> mass(classes);
+  std::vector<ClassId> all_classes(classes);
+  std::iota(all_classes.begin(), all_classes.end(), ClassId{0});
   detail::forEachRun(sorted, [&](std::size_t begin, std::size_t end) {
     for (std::size_t entry = begin; entry < end; ++entry) {
       const std::size_t b = sorted[entry].item;
@@ -309,9 +321,8 @@ ScanIncrements countPoints(const PreparedScan& scan, const Options& options, Sca
         }
       }
       const BlockIndex& voxel = scan.blocks[b];
-      runs.begin(indexInChunk({voxel.x, voxel.y, voxel.z}));
-      for (std::size_t k = 0; k < classes; ++k) runs.add(static_cast<ClassId>(k), mass[k]);
-      runs.end();
+      runs.add(indexInChunk({voxel.x, voxel.y, voxel.z}), all_classes.data(), classes,
+               [&](ClassId k) { return detail::toCount(mass[k]); });
     }
     const BlockIndex& first = scan.blocks[sorted[begin].item];
     report.voxels_updated += runs.voxelCount();

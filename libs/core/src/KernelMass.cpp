@@ -9,75 +9,91 @@ namespace csom::detail {
 
 namespace {
 
-inline Lanes load(const float* values) {
-  Lanes lanes;
+// Lengths in units of FixedPoint are those in voxels times a power of two: squares, roots and
+// quotients of floats come out with the same digits in either.
+constexpr float kUnits = kFixedPointVoxel;
+
+CSOM_INLINE Lanes toFloat(const WordLanes& difference) {
+  return __builtin_convertvector(reinterpret_cast<const IntLanes&>(difference), Lanes);
+}
+
+CSOM_INLINE WordLanes load(const FixedPoint* values) {
+  WordLanes lanes;
   std::memcpy(&lanes, values, sizeof lanes);
   return lanes;
 }
 
 /// Distance along one axis from the interval center ± half, 0 inside.
-inline Lanes distanceBeyond(const Lanes& coordinate, float center, float half) {
-  const Lanes offset = coordinate - center;
-  const Lanes beyond = (offset > 0.0F ? offset : -offset) - half;
-  return beyond > 0.0F ? beyond : Lanes{};
+CSOM_INLINE Lanes distanceBeyond(const WordLanes& coordinate, FixedPoint center, FixedPoint half) {
+  const WordLanes difference = coordinate - center;
+  const auto offset = reinterpret_cast<const IntLanes&>(difference);
+  const IntLanes beyond = (offset > 0 ? offset : -offset) - static_cast<std::int32_t>(half);
+  return __builtin_convertvector(beyond > 0 ? beyond : IntLanes{}, Lanes);
 }
 
 template <class KernelFunction>
-inline __attribute__((always_inline)) void addMass(KernelFunction kernel, const BlockWindow& window,
-                                                   const std::vector<std::uint32_t>& selected,
-                                                   const PreparedScan& scan, const LaneGroup& group,
-                                                   const BlockPlace& block, float length,
-                                                   LaneSums& sums) {
-  const float inverse_length = 1.0F / length;
-  const bool hard = scan.scores.empty();
-  const Lanes x = group.x + block.x;
-  const Lanes y = group.y + block.y;
-  const Lanes z = group.z + block.z;
-  for (const std::uint32_t i : selected) {
-    const Lanes dx = x - window.x()[i];
-    const Lanes dy = y - window.y()[i];
-    const Lanes dz = z - window.z()[i];
-    const Lanes t = squareRoot(dx * dx + dy * dy + dz * dz) * inverse_length;
-    const Lanes mass = t < 1.0F ? kernel(t) : Lanes{};
-    const std::uint32_t point = window.point()[i];
-    if (hard) {
-      sums.add(scan.points[point].label, mass);
-    } else {
-      sums.add(scan.scores.data() + static_cast<std::size_t>(point) * sums.numberOfClasses(), mass);
+CSOM_INLINE void addMass(KernelFunction kernel, const PointColumns& points,
+                         const std::vector<std::uint32_t>& selected,
+                         const std::vector<float>& scores, const LaneGroup& group,
+                         const BlockPlace& block, float length, LaneSums& sums) {
+  const float inverse_length = 1.0F / length / kUnits;
+  const WordLanes x = group.x + block.x;
+  const WordLanes y = group.y + block.y;
+  const WordLanes z = group.z + block.z;
+  const FixedPoint* const px = points.x.data();
+  const FixedPoint* const py = points.y.data();
+  const FixedPoint* const pz = points.z.data();
+  alignas(kLaneAlignment) std::array<Lanes, LaneSums::kCarryInterval> masses;
+  for (std::size_t first = 0; first < selected.size(); first += masses.size()) {
+    const std::size_t size = std::min(masses.size(), selected.size() - first);
+    const std::uint32_t* const batch = selected.data() + first;
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::uint32_t p = batch[i];
+      const Lanes dx = toFloat(x - px[p]);
+      const Lanes dy = toFloat(y - py[p]);
+      const Lanes dz = toFloat(z - pz[p]);
+      const Lanes t = squareRoot(dx * dx + dy * dy + dz * dz) * inverse_length;
+      masses[i] = t < 1.0F ? kernel(t) : Lanes{};
     }
+    if (scores.empty()) {
+      sums.add(points.label.data(), batch, masses.data(), size);
+    } else {
+      sums.add(scores.data(), batch, masses.data(), size);
+    }
+    sums.carry();
   }
 }
 
 CSOM_EVERY_PROCESSOR
-void addSparse(const BlockWindow& window, const std::vector<std::uint32_t>& selected,
-               const PreparedScan& scan, const LaneGroup& group, const BlockPlace& block,
+void addSparse(const PointColumns& points, const std::vector<std::uint32_t>& selected,
+               const std::vector<float>& scores, const LaneGroup& group, const BlockPlace& block,
                float length, LaneSums& sums) {
   addMass(
-      [](const Lanes& t) __attribute__((always_inline)) { return sparseKernel(t); }, window,
-      selected, scan, group, block, length, sums);
+      [](const Lanes& t) __attribute__((always_inline)) { return sparseKernel(t); }, points,
+      selected, scores, group, block, length, sums);
 }
 
 CSOM_EVERY_PROCESSOR
-void addLinear(const BlockWindow& window, const std::vector<std::uint32_t>& selected,
-               const PreparedScan& scan, const LaneGroup& group, const BlockPlace& block,
+void addLinear(const PointColumns& points, const std::vector<std::uint32_t>& selected,
+               const std::vector<float>& scores, const LaneGroup& group, const BlockPlace& block,
                float length, LaneSums& sums) {
   addMass(
-      [](const Lanes& t) __attribute__((always_inline)) { return linearKernel(t); }, window,
-      selected, scan, group, block, length, sums);
+      [](const Lanes& t) __attribute__((always_inline)) { return linearKernel(t); }, points,
+      selected, scores, group, block, length, sums);
 }
 
 CSOM_EVERY_PROCESSOR
-std::size_t select(const BlockWindow& window, const std::vector<PointRange>& ranges,
+std::size_t select(const PointColumns& points, const std::vector<PointRange>& ranges,
                    const BlockPlace& block, float length, std::uint32_t* selected) {
-  const float middle = block.edge / 2;
-  const float half = middle - 0.5F;  // from the middle to the outermost voxel centres
-  const float limit = length * length;
+  const FixedPoint middle = block.edge / 2;
+  const FixedPoint half = middle - kFixedPointVoxel / 2;  // to the outermost voxel centres
+  const float limit = length * length * (kUnits * kUnits);
   std::size_t size = 0;
   for (const PointRange& range : ranges) {
     for (std::uint32_t first = range.first; first < range.last; first += kLanes) {
-      const Lanes dx = distanceBeyond(load(window.x() + first), block.x + middle, half);
-      const Lanes dy = distanceBeyond(load(window.y() + first), block.y + middle, half);
-      const Lanes dz = distanceBeyond(load(window.z() + first), block.z + middle, half);
+      const Lanes dx = distanceBeyond(load(points.x.data() + first), block.x + middle, half);
+      const Lanes dy = distanceBeyond(load(points.y.data() + first), block.y + middle, half);
+      const Lanes dz = distanceBeyond(load(points.z.data() + first), block.z + middle, half);
       const Lanes squared = dx * dx + dy * dy + dz * dz;
       const auto count = std::min<std::uint32_t>(kLanes, range.last - first);
       for (std::uint32_t lane = 0; lane < count; ++lane) {
@@ -91,21 +107,21 @@ std::size_t select(const BlockWindow& window, const std::vector<PointRange>& ran
 
 }  // namespace
 
-void selectNearby(const BlockWindow& window, const std::vector<PointRange>& ranges,
+void selectNearby(const PointColumns& points, const std::vector<PointRange>& ranges,
                   const BlockPlace& block, float length, std::vector<std::uint32_t>& selected) {
   std::size_t candidates = 0;
   for (const PointRange& range : ranges) candidates += range.last - range.first;
   selected.resize(candidates);
-  selected.resize(select(window, ranges, block, length, selected.data()));
+  selected.resize(select(points, ranges, block, length, selected.data()));
 }
 
-void addKernelMass(Kernel kernel, const BlockWindow& window,
-                   const std::vector<std::uint32_t>& selected, const PreparedScan& scan,
+void addKernelMass(Kernel kernel, const PointColumns& points,
+                   const std::vector<std::uint32_t>& selected, const std::vector<float>& scores,
                    const LaneGroup& group, const BlockPlace& block, float length, LaneSums& sums) {
   if (kernel == Kernel::Sparse) {
-    addSparse(window, selected, scan, group, block, length, sums);
+    addSparse(points, selected, scores, group, block, length, sums);
   } else {
-    addLinear(window, selected, scan, group, block, length, sums);
+    addLinear(points, selected, scores, group, block, length, sums);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace csom::detail {
 
@@ -12,6 +13,8 @@ namespace csom::detail {
 /// register or two SSE registers.
 constexpr std::size_t kLanes = 8;
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+using IntLanes = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
+using WordLanes = std::uint32_t __attribute__((vector_size(kLanes * sizeof(std::uint32_t))));
 /// What structs of lanes must ask for: the compiler takes less where it compiles without AVX.
 constexpr std::size_t kLaneAlignment = sizeof(Lanes);
 
@@ -30,5 +33,7 @@ inline Lanes squareRoot(const Lanes& v) {
 #else
 #define CSOM_EVERY_PROCESSOR
 #endif
+// What such a function calls must become part of it, to be compiled for the same processor.
+#define CSOM_INLINE inline __attribute__((always_inline))
 
 }  // namespace csom::detail

@@ -6,34 +6,40 @@
 #include <csom/core/DirichletVoxel.h>
 #include <csom/core/Grid.h>
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
 namespace csom::detail {
 
-/// Kernel mass rounded once to the quantum.
+/// Kernel mass, not negative, rounded once to the quantum. Free of branches: whether a class has
+/// any mass in a voxel cannot be foreseen.
 inline std::uint32_t toCount(double mass) {
-  const double quanta = std::floor(mass / kCountQuantum + 0.5);
-  if (!(quanta > 0)) return 0;
-  return quanta >= static_cast<double>(kMaxCount) ? kMaxCount : static_cast<std::uint32_t>(quanta);
+  const double quanta = mass / kCountQuantum + 0.5;
+  return static_cast<std::uint32_t>(
+      static_cast<std::int64_t>(std::min(quanta, static_cast<double>(kMaxCount))));
 }
 
 class VoxelRuns {
  public:
-  /// Between begin() and end() of a voxel: its classes in ascending order. A voxel comes once.
-  void begin(int index_in_chunk) {
-    voxel_ = static_cast<std::uint16_t>(index_in_chunk);
-    run_begin_[voxel_] = static_cast<std::uint32_t>(entries_.size());
-  }
-  void add(ClassId k, double mass) {
-    if (const std::uint32_t count = toCount(mass); count > 0)
-      entries_.push_back({voxel_, k, count});
-  }
-  void end() {
-    run_end_[voxel_] = static_cast<std::uint32_t>(entries_.size());
-    if (run_end_[voxel_] > run_begin_[voxel_]) ++voxels_;
+  /// Adds the counts of a voxel for `size` classes in ascending order, those that are not 0:
+  /// countOf(class). A voxel comes once.
+  template <class CountOf>
+  void add(int index_in_chunk, const ClassId* classes, std::size_t size, CountOf&& countOf) {
+    if (entries_.size() < used_ + size) entries_.resize(2 * (used_ + size));
+    const auto voxel = static_cast<std::uint16_t>(index_in_chunk);
+    std::size_t end = used_;
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::uint32_t count = countOf(classes[i]);
+      entries_[end] = {voxel, classes[i], count};
+      end += count > 0 ? 1 : 0;
+    }
+    if (end == used_) return;
+    known_[voxel >> 6U] |= std::uint64_t{1} << (voxel & 63U);
+    runs_[voxel] = {static_cast<std::uint32_t>(used_), static_cast<std::uint32_t>(end - used_)};
+    used_ = end;
+    ++voxels_;
   }
 
   std::size_t voxelCount() const { return voxels_; }
@@ -41,24 +47,30 @@ class VoxelRuns {
   /// Everything since the last call, sorted by voxel and class.
   std::vector<CountIncrement> take() {
     std::vector<CountIncrement> sorted;
-    sorted.reserve(entries_.size());
-    for (std::size_t voxel = 0; voxel < kVoxelsPerChunk; ++voxel) {
-      sorted.insert(sorted.end(), entries_.begin() + run_begin_[voxel],
-                    entries_.begin() + run_end_[voxel]);
+    sorted.reserve(used_);
+    for (std::size_t word = 0; word < known_.size(); ++word) {
+      for (std::uint64_t bits = known_[word]; bits != 0; bits &= bits - 1) {
+        const Run run = runs_[word * 64 + static_cast<std::size_t>(__builtin_ctzll(bits))];
+        for (std::size_t i = run.begin; i < run.begin + run.size; ++i)
+          sorted.push_back(entries_[i]);
+      }
     }
-    run_begin_.fill(0);
-    run_end_.fill(0);
-    entries_.clear();
+    known_.fill(0);
+    used_ = 0;
     voxels_ = 0;
     return sorted;
   }
 
  private:
-  std::vector<CountIncrement> entries_;
-  std::array<std::uint32_t, kVoxelsPerChunk> run_begin_{};
-  std::array<std::uint32_t, kVoxelsPerChunk> run_end_{};
+  struct Run {
+    std::uint32_t begin;
+    std::uint32_t size;
+  };
+  std::vector<CountIncrement> entries_;  ///< of which `used_` are in use
+  std::size_t used_ = 0;
+  std::array<std::uint64_t, kVoxelsPerChunk / 64> known_{};
+  std::array<Run, kVoxelsPerChunk> runs_{};  ///< of the known voxels
   std::size_t voxels_ = 0;
-  std::uint16_t voxel_ = 0;
 };
 
 }  // namespace csom::detail
