@@ -96,10 +96,10 @@ void runMap(const MapArguments& arguments) {
   const MappingRequest request = requestOf(arguments);
   std::vector<std::string> inputs = arguments.logs;
   inputs.push_back(arguments.config);
-  if (request.poses && request.poses->kind != PoseChoice::Kind::RobotPose)
-    inputs.push_back(request.poses->argument);
+  if (request.poses && request.poses->takesFile()) inputs.push_back(request.poses->argument);
   std::vector<std::string> names = reportFiles();
   names.push_back("map.csom");
+  names.push_back("trajectory.tum");
   const OutputFolder folder(arguments.output, names);
   std::vector<std::string> outputs;
   for (const std::string& name : folder.results()) outputs.push_back(folder.file(name));
@@ -117,6 +117,7 @@ void runMap(const MapArguments& arguments) {
   const MapDocument document = documentOf(record, result);
   StagedResults results(folder);
   saveMap(document, results.file("map.csom"));
+  if (result.registration) writeTumTrajectory(result.trajectory, results.file("trajectory.tum"));
   ReportOptions report;
   report.html = !arguments.no_html;
   const MapFigures figures = figuresOf(document);
@@ -146,7 +147,8 @@ void addMapCommand(CLI::App& program) {
                    "Folder for map.csom, run.json and report.html; created if missing")
       ->required();
   command->add_option("--poses", arguments->poses,
-                      "odometry | robot-pose[:LABEL] | tum:FILE | kitti:FILE | simplemap:FILE "
+                      "odometry | robot-pose[:LABEL] | tum:FILE | kitti:FILE | simplemap:FILE | "
+                      "icp[:LABEL], which registers the 3-D scans and writes trajectory.tum "
                       "(default: the robot poses of the log, else its odometry; a simplemap has "
                       "poses of its own)");
   command->add_option(

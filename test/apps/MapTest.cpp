@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // csom map as a process: the files that it leaves, and the same map from MRPT's own program.
+#include <csom/io/TrajectoryFile.h>
 #include <csom/maps/CSemanticContinuousMap.h>
+#include <csom/rawlog/Simulation.h>
 
 #include <nlohmann/json.hpp>
 
 #include "apps/RunCsom.h"
 #include "rawlog/LogFixtures.h"
+#include "rawlog/SimulatedDrive.h"
 
 namespace csom::test {
 namespace {
@@ -119,6 +122,31 @@ TEST_F(Map, EqualsThatOfObservations2map) {
   }
   ASSERT_NE(stock_map, "") << stock.output;
   EXPECT_EQ(digest(folder / stock_map), digest(folder / "out/map.csom"));
+}
+
+TEST_F(Map, RegisteredPosesAreATrajectoryThatGivesTheSameMapAgain) {
+  SimulationOptions options;
+  options.format = RawlogFormat::Observations;
+  const std::string drive = folder / "yard.rawlog";
+  simulateRawlog(yardDrive(folder), drive, options);
+  const std::string occupancy = std::string(CSOM_SOURCE_DIR) + "/config/occupancy.ini";
+  const auto run = runCsom(folder.path(), {"map", drive, "-c", occupancy, "-o", folder / "out",
+                                           "--poses", "icp", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  const auto record = json::parse(run.output);
+  EXPECT_EQ(record.at("registration").at("scans"), 20);
+  EXPECT_EQ(record.at("registration").at("doubtful"), 0);
+  EXPECT_EQ(readTumTrajectory(folder / "out/trajectory.tum").size(), 20U);
+
+  const std::string trajectory = folder / "kept.tum";
+  std::filesystem::copy_file(folder / "out/trajectory.tum", trajectory);
+  const std::string digest_by_icp = digest(folder / "out/map.csom");
+  ASSERT_EQ(runCsom(folder.path(), {"map", drive, "-c", occupancy, "-o", folder / "out", "--poses",
+                                    "tum:" + trajectory})
+                .exit_code,
+            0);
+  EXPECT_EQ(digest(folder / "out/map.csom"), digest_by_icp);
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/trajectory.tum")) << "of an earlier run";
 }
 
 std::string shipped(const std::string& path) {

@@ -37,6 +37,22 @@ TEST_F(TrajectoryFileTest, ReadsTum) {
   EXPECT_NEAR(trajectory[0].pose.linear().determinant(), 1, 1e-12);
 }
 
+TEST_F(TrajectoryFileTest, WritesWhatItReads) {
+  std::vector<TimedPose> trajectory(2);
+  trajectory[0].timestamp = 1305031098.6659;
+  trajectory[1].timestamp = 1305031098.7;
+  trajectory[1].pose.translation() = Eigen::Vector3d(1.25, -2e3, 0.001);
+  trajectory[1].pose.rotate(Eigen::AngleAxisd(2.5, Eigen::Vector3d(1, 2, -3).normalized()));
+  writeTumTrajectory(trajectory, file_);
+  const auto again = readTumTrajectory(file_);
+  ASSERT_EQ(again.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(again[i].timestamp, trajectory[i].timestamp);
+    EXPECT_TRUE(again[i].pose.isApprox(trajectory[i].pose, 1e-9)) << i;
+  }
+  EXPECT_THROW(writeTumTrajectory(trajectory, folder_ / "none/poses.tum"), FileError);
+}
+
 TEST_F(TrajectoryFileTest, ReadsKitti) {
   writeBytes(file_, "1 0 0 4 0 1 0 5 0 0 1 6\n0 -1 0 1.5 1 1e-6 0 2 0 0 1 3\n");
   const auto poses = readKittiPoses(file_);

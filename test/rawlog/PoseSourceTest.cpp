@@ -73,7 +73,7 @@ TEST(PoseTrack, RefusesWhatIsNotFinite) {
 
 TEST(PoseChoice, IsReadAndWritten) {
   for (const char* text : {"odometry", "robot-pose", "robot-pose:truth", "tum:a.txt", "kitti:a:b",
-                           "simplemap:x.simplemap"})
+                           "simplemap:x.simplemap", "icp", "icp:lidar"})
     EXPECT_EQ(PoseChoice::parse(text).toString(), text);
   for (const char* text : {"", "gps", "tum", "tum:", "odometry:x", "kitti:", "simplemap"})
     EXPECT_THROW(PoseChoice::parse(text), ConfigError) << text;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csom/core/Error.h>
 #include <csom/io/InputFile.h>
+#include <csom/io/OutputFile.h>
 #include <csom/io/TextParser.h>
 #include <csom/io/TrajectoryFile.h>
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "RigidTransform.h"
 
@@ -72,6 +74,21 @@ std::vector<TimedPose> readTumTrajectory(const std::string& file) {
   }
   if (trajectory.empty()) throw FileError(file, "holds no pose");
   return trajectory;
+}
+
+void writeTumTrajectory(const std::vector<TimedPose>& trajectory, const std::string& file) {
+  OutputFile output(file);
+  output.write("# timestamp x y z qx qy qz qw\n");
+  for (const TimedPose& entry : trajectory) {
+    const Eigen::Vector3d position = entry.pose.translation();
+    const Eigen::Quaterniond rotation(entry.pose.linear());
+    char line[512];
+    std::snprintf(line, sizeof line, "%.9f %.9f %.9f %.9f %.12f %.12f %.12f %.12f\n",
+                  entry.timestamp, position.x(), position.y(), position.z(), rotation.x(),
+                  rotation.y(), rotation.z(), rotation.w());
+    output.write(line);
+  }
+  output.commit();
 }
 
 std::vector<Eigen::Isometry3d> readKittiPoses(const std::string& file) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Eigen's rigid motions as MRPT's poses.
+// Eigen's rigid motions as MRPT's poses, and back.
 #pragma once
 
 #include <mrpt/math/CMatrixFixed.h>
@@ -15,6 +15,12 @@ inline mrpt::poses::CPose3D toMrpt(const Eigen::Isometry3d& motion) {
     for (int column = 0; column < 4; ++column) matrix(row, column) = motion.matrix()(row, column);
   }
   return mrpt::poses::CPose3D(matrix);
+}
+
+inline Eigen::Isometry3d toEigen(const mrpt::poses::CPose3D& pose) {
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.matrix() = pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen();
+  return motion;
 }
 
 }  // namespace csom::detail

@@ -3,8 +3,7 @@
 #include <csom/core/Error.h>
 #include <csom/rawlog/MappingRun.h>
 #include <csom/rawlog/RawlogSurvey.h>
-#include <mrpt/obs/CObservationOdometry.h>
-#include <mrpt/obs/CObservationRobotPose.h>
+#include <csom/rawlog/ReadAhead.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
@@ -12,7 +11,9 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "EigenPose.h"
 #include "MrptText.h"
+#include "PosedLog.h"
 
 namespace csom {
 namespace {
@@ -23,6 +24,9 @@ using mrpt::poses::CPose3D;
 constexpr char kOtherKind[] = "of a kind that this map does not take";
 
 constexpr char kNoPoints[] = "none of its points can be used";
+
+/// Enough for the network to find the next scan ready, few enough for memory.
+constexpr std::size_t kEntriesAhead = 8;
 
 std::string counted(std::size_t count, const std::string& things) {
   return std::to_string(count) + " " + things;
@@ -43,12 +47,6 @@ std::optional<std::string> whyNotTaken(const LastInsertion& last) {
       break;
   }
   return std::nullopt;
-}
-
-/// Observations that say where the robot is, not what is around it.
-bool tellsPose(const mrpt::obs::CObservation& observation) {
-  return dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation) != nullptr ||
-         dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation) != nullptr;
 }
 
 CSemanticContinuousMap::TMapDefinition definitionOf(const std::string& file) {
@@ -94,6 +92,9 @@ class MappingRun {
     // All that can be wrong with the input is found out before the long part starts.
     std::vector<PoseSource> poses;
     std::vector<RawlogSurvey> surveys;
+    if (request_.poses && request_.poses->kind == PoseChoice::Kind::Icp && request_.logs.size() > 1)
+      throw ConfigError("--poses icp: " + std::to_string(request_.logs.size()) +
+                        " logs would each begin at the same place; map them one by one");
     for (const std::string& log : request_.logs) {
       surveys.push_back(survey(log));
       poses.emplace_back(request_.poses, surveys.back());
@@ -111,7 +112,8 @@ class MappingRun {
  private:
   RawlogSurvey survey(const std::string& log);
   void mapLog(const RawlogSurvey& survey, PoseSource& poses);
-  void mapEntry(const RawlogEntry& entry, PoseSource& poses);
+  void mapEntry(const detail::PosedEntry& entry);
+  void noteRegistration(const PoseSource& poses);
   void insert(const mrpt::obs::CObservation& observation, const CPose3D& pose);
   void flush();
   void noteScans(std::size_t scans_before, double elapsed_ms);
@@ -157,23 +159,24 @@ RawlogSurvey MappingRun::survey(const std::string& log) {
 }
 
 void MappingRun::mapLog(const RawlogSurvey& survey, PoseSource& poses) {
-  RawlogReader reader(survey.file);
-  while (const auto entry = reader.next()) {
-    poses.advance(*entry);
-    mapEntry(*entry, poses);
-    ++entries_done_;
-    if (on_progress_)
-      on_progress_({survey.file, entries_done_, entries_, result_.map->scans().size()});
+  {
+    detail::PosedLog log(survey, poses);
+    ReadAhead<detail::PosedEntry> entries(kEntriesAhead, [&log] { return log.next(); });
+    while (const auto entry = entries.next()) {
+      mapEntry(*entry);
+      ++entries_done_;
+      if (on_progress_)
+        on_progress_({survey.file, entries_done_, entries_, result_.map->scans().size()});
+    }
   }
   flush();
+  noteRegistration(poses);
 }
 
-void MappingRun::mapEntry(const RawlogEntry& entry, PoseSource& poses) {
+void MappingRun::mapEntry(const detail::PosedEntry& entry) {
   open_frame_.reset();
-  for (const auto& observation : entry.observations) {
-    if (tellsPose(*observation)) continue;
+  for (const auto& [observation, pose] : entry) {
     ++result_.observations_read;
-    const auto pose = poses.poseOf(entry, *observation);
     if (!pose) {
       refuse(*observation, "no pose at its time");
       continue;
@@ -181,6 +184,17 @@ void MappingRun::mapEntry(const RawlogEntry& entry, PoseSource& poses) {
     insert(*observation, *pose);
     if (request_.keep_key_frames) keep(observation, *pose);
   }
+}
+
+void MappingRun::noteRegistration(const PoseSource& poses) {
+  result_.registration = poses.registration();
+  if (!result_.registration) return;
+  for (const auto& [time, pose] : poses.track().poses())
+    result_.trajectory.push_back({time, detail::toEigen(pose)});
+  const RegistrationReport& report = *result_.registration;
+  for (const std::string& doubt : report.doubts) warn(doubt);
+  if (report.doubtful > report.doubts.size())
+    warn("registration of " + counted(report.doubtful, "scans in all is doubtful"));
 }
 
 void MappingRun::insert(const mrpt::obs::CObservation& observation, const CPose3D& pose) {

@@ -8,6 +8,7 @@
 
 #include "EigenPose.h"
 #include "MrptText.h"
+#include "RegisteredScans.h"
 
 namespace csom {
 namespace {
@@ -15,7 +16,8 @@ namespace {
 using Kind = PoseChoice::Kind;
 
 constexpr char kAccepted[] =
-    "odometry, robot-pose, robot-pose:LABEL, tum:FILE, kitti:FILE or simplemap:FILE";
+    "odometry, robot-pose, robot-pose:LABEL, tum:FILE, kitti:FILE, simplemap:FILE, icp or "
+    "icp:LABEL";
 
 struct KindName {
   Kind kind;
@@ -26,7 +28,8 @@ constexpr KindName kKinds[] = {{Kind::Odometry, "odometry", false},
                                {Kind::RobotPose, "robot-pose", false},
                                {Kind::Tum, "tum", true},
                                {Kind::Kitti, "kitti", true},
-                               {Kind::SimpleMap, "simplemap", true}};
+                               {Kind::SimpleMap, "simplemap", true},
+                               {Kind::Icp, "icp", false}};
 
 /// The only track, or that of `label`.
 const std::pair<const std::string, PoseTrack>& pickTrack(
@@ -70,12 +73,16 @@ PoseChoice PoseChoice::parse(const std::string& text) {
   const std::string argument = colon == std::string::npos ? "" : text.substr(colon + 1);
   for (const KindName& known : kKinds) {
     if (name != known.name) continue;
-    const bool takes_label = known.kind == Kind::RobotPose;
+    const bool takes_label = known.kind == Kind::RobotPose || known.kind == Kind::Icp;
     if (known.needs_file && argument.empty()) break;
     if (colon != std::string::npos && !known.needs_file && !takes_label) break;
     return {known.kind, argument};
   }
   throw ConfigError("--poses '" + text + "': expected " + kAccepted);
+}
+
+bool PoseChoice::takesFile() const {
+  return kind == Kind::Tum || kind == Kind::Kitti || kind == Kind::SimpleMap;
 }
 
 std::string PoseChoice::toString() const {
@@ -89,17 +96,23 @@ PoseSource::PoseSource(const std::optional<PoseChoice>& choice, const RawlogSurv
     : choice_(choice ? *choice : defaultChoice(survey)) {
   if (choice_.kind == Kind::Odometry || choice_.kind == Kind::RobotPose)
     useLog(survey);
+  else if (choice_.kind == Kind::Icp)
+    useScans(survey);
   else
     useFile();
 }
+
+PoseSource::~PoseSource() = default;
+PoseSource::PoseSource(PoseSource&&) noexcept = default;
 
 PoseChoice PoseSource::defaultChoice(const RawlogSurvey& survey) {
   if (survey.is_simplemap) return {Kind::KeyFrames, ""};
   if (!survey.robot_poses.empty()) return {Kind::RobotPose, ""};
   if (survey.has_actions || !survey.odometry.empty()) return {Kind::Odometry, ""};
-  throw ConfigError(survey.file +
-                    ": holds neither robot poses nor odometry; name a source of poses with --poses "
-                    "tum:FILE, kitti:FILE or simplemap:FILE");
+  throw ConfigError(
+      survey.file +
+      ": holds neither robot poses nor odometry; name a source of poses with --poses "
+      "tum:FILE, kitti:FILE or simplemap:FILE, or let --poses icp register its scans");
 }
 
 void PoseSource::useLog(const RawlogSurvey& survey) {
@@ -131,10 +144,47 @@ void PoseSource::useFile() {
   }
 }
 
+void PoseSource::useScans(const RawlogSurvey& survey) {
+  std::vector<std::string> labels;
+  for (const auto& [label, count] : survey.scans_3d) labels.push_back(detail::quoted(label));
+  if (labels.empty())
+    throw ConfigError(survey.file +
+                      ": holds no 3-D scans (CObservationVelodyneScan, CObservationPointCloud, "
+                      "CObservationRotatingScan) that --poses icp could register");
+  if (choice_.argument.empty()) {
+    if (labels.size() > 1)
+      throw ConfigError(survey.file + ": 3-D scans with several labels (" + detail::joined(labels) +
+                        "); choose one with --poses icp:LABEL");
+    choice_.argument = survey.scans_3d.begin()->first;
+  } else if (survey.scans_3d.count(choice_.argument) == 0) {
+    throw ConfigError(survey.file + ": no 3-D scans with the label " +
+                      detail::quoted(choice_.argument) + "; there are " + detail::joined(labels));
+  }
+  scans_ = std::make_unique<detail::RegisteredScans>(choice_.argument);
+}
+
 void PoseSource::advance(const RawlogEntry& entry) {
+  if (scans_) {
+    for (const auto& observation : entry.observations) scans_->add(*observation, track_);
+    return;
+  }
   if (!integrates_actions_ || !entry.action) return;
   mrpt::poses::CPose3D movement;
   if (entry.action->getFirstMovementEstimationMean(movement)) integrated_ = integrated_ + movement;
+}
+
+bool PoseSource::knows(const RawlogEntry& entry) const {
+  if (!scans_) return true;
+  for (const auto& observation : entry.observations) {
+    const auto time = detail::secondsOf(observation->timestamp);
+    if (time && !track_.reaches(*time)) return false;
+  }
+  return true;
+}
+
+std::optional<RegistrationReport> PoseSource::registration() const {
+  if (!scans_) return std::nullopt;
+  return scans_->report();
 }
 
 std::optional<mrpt::poses::CPose3D> PoseSource::poseOf(const RawlogEntry& entry,

@@ -154,8 +154,16 @@ class RawlogReader::Archive : public mrpt::serialization::CArchive {
   Header current_;
 };
 
-RawlogReader::RawlogReader(const std::string& file)
-    : file_(file), image_folder_(imageFolderOf(file)) {
+/// For as long as a part of a log is read that may be damaged.
+struct RawlogReader::Guard {
+  Guard(std::uint64_t memory_allowance, const std::string& crash_line)
+      : limit(memory_allowance), report(crash_line) {}
+  detail::MemoryLimit limit;
+  detail::CrashReport report;
+};
+
+RawlogReader::RawlogReader(const std::string& file, Soundness soundness)
+    : file_(file), image_folder_(imageFolderOf(file)), soundness_(soundness) {
   if (const std::string reason = whyUnreadable(file); !reason.empty())
     throw FileError(file, reason);
   memory_allowance_ = kMemoryAtLeast + kMemoryPerByte * std::filesystem::file_size(file);
@@ -172,8 +180,7 @@ bool RawlogReader::isSimpleMap() const {
 }
 
 void RawlogReader::readStart() {
-  const detail::MemoryLimit limit(memory_allowance_);
-  const detail::CrashReport report(crashLine());
+  const std::unique_ptr<Guard> guarded = guard();
   if (archive_->atEnd()) throw FileError(file_, "is empty");
   Archive::Header header;
   try {
@@ -218,8 +225,7 @@ std::optional<RawlogEntry> RawlogReader::next() {
     first_.reset();
   } else {
     try {
-      const detail::MemoryLimit limit(memory_allowance_);
-      const detail::CrashReport report(crashLine());
+      const std::unique_ptr<Guard> guarded = guard();
       if (!readEntry(entry)) {
         stopped_ = true;
         return std::nullopt;
@@ -276,6 +282,11 @@ bool RawlogReader::accept(const CSerializable::Ptr& object, RawlogEntry& entry) 
   }
   entry.action = std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object);
   return entry.action != nullptr;
+}
+
+std::unique_ptr<RawlogReader::Guard> RawlogReader::guard() const {
+  if (soundness_ == Soundness::Known) return nullptr;
+  return std::make_unique<Guard>(memory_allowance_, crashLine());
 }
 
 std::string RawlogReader::crashLine() const {

@@ -9,6 +9,7 @@
 
 #include "ExternalFiles.h"
 #include "MrptText.h"
+#include "RegisteredScans.h"
 
 namespace csom {
 namespace {
@@ -21,6 +22,7 @@ void addPose(RawlogSurvey& survey, PoseTrack& track, const mrpt::Clock::time_poi
 
 void surveyObservation(RawlogSurvey& survey, const mrpt::obs::CObservation& observation) {
   ++survey.observations;
+  if (detail::isScan3D(observation)) ++survey.scans_3d[observation.sensorLabel];
   if (const auto* robot = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation)) {
     addPose(survey, survey.robot_poses[robot->sensorLabel], robot->timestamp, robot->pose.mean);
   } else if (const auto* wheels =

@@ -18,6 +18,9 @@ struct TimedPose {
 /// and line, also for a file without any pose.
 std::vector<TimedPose> readTumTrajectory(const std::string& file);
 
+/// As readTumTrajectory() takes it, with nanometres and nanoseconds. Throws FileError.
+void writeTumTrajectory(const std::vector<TimedPose>& trajectory, const std::string& file);
+
 /// KITTI: lines of 12 numbers, a 3×4 matrix row by row; line i is the pose of scan i. The rotation
 /// is replaced by the nearest exact one; a matrix farther than 1 % from any rotation is an error.
 /// Throws FileError naming file and line, also for a file without any pose.

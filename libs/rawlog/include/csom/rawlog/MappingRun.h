@@ -2,6 +2,7 @@
 // From logs to a map: what `csom map` does, without its files and its terminal.
 #pragma once
 
+#include <csom/io/TrajectoryFile.h>
 #include <csom/maps/CSemanticContinuousMap.h>
 #include <csom/rawlog/PoseSource.h>
 #include <csom/rawlog/RawlogReader.h>
@@ -19,12 +20,12 @@
 namespace csom {
 
 struct MappingRequest {
-  std::vector<std::string> logs;    ///< rawlogs and simplemaps, mapped one after another
-  std::string config_file;          ///< ini with a section [MappingApplication]
-  std::optional<PoseChoice> poses;  ///< nothing: the best that each log holds
-  std::optional<int> threads;       ///< overrides the option of the ini
+  std::vector<std::string> logs;           ///< rawlogs and simplemaps, mapped one after another
+  std::string config_file;                 ///< ini with a section [MappingApplication]
+  std::optional<PoseChoice> poses;         ///< nothing: the best that each log holds
+  std::optional<int> threads;              ///< overrides the option of the ini
   std::optional<std::string> label_cache;  ///< folder, overrides the option of the ini
-  bool keep_key_frames = false;     ///< fill MappingResult::key_frames, which holds all in memory
+  bool keep_key_frames = false;  ///< fill MappingResult::key_frames, which holds all in memory
 };
 
 /// How far a run has come.
@@ -54,15 +55,18 @@ struct MappingResult {
   std::optional<LabelledScan> first_labelled;
   std::optional<LabelledScan> middle_labelled;
   std::optional<LabelledScan> last_labelled;
-  std::vector<std::string> warnings;  ///< one line each
+  std::optional<RegistrationReport> registration;  ///< nothing if the poses were given
+  std::vector<TimedPose> trajectory;               ///< the registered poses, by time
+  std::vector<std::string> warnings;               ///< one line each
   /// The observations that had a pose, with it: MRPT's observations2map makes the same map of it.
   mrpt::maps::CSimpleMap key_frames;
 };
 
 /// Throws FileError for a log or file of poses that cannot be read, or a log that refers to an
 /// externalised file that is missing; ConfigError and OptionError for an ini that is wrong (unknown
-/// keys in our sections included); std::runtime_error if no observation could be used. A log that
-/// is cut off or damaged counts as far as it can be read, with a warning.
+/// keys in our sections included), or if several logs are to be registered; std::runtime_error if
+/// no observation could be used. A log that is cut off or damaged counts as far as it can be read,
+/// with a warning.
 MappingResult mapLogs(const MappingRequest& request,
                       const std::function<void(const MappingProgress&)>& on_progress = {});
 

@@ -5,15 +5,21 @@
 #include <csom/rawlog/PoseTrack.h>
 #include <csom/rawlog/RawlogReader.h>
 #include <csom/rawlog/RawlogSurvey.h>
+#include <csom/rawlog/ScanRegistration.h>
 #include <mrpt/poses/CPose3D.h>
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace csom {
+
+namespace detail {
+class RegisteredScans;
+}
 
 /// What `--poses` asks for.
 struct PoseChoice {
@@ -23,14 +29,16 @@ struct PoseChoice {
     Tum,        ///< file: `timestamp x y z qx qy qz qw` a line
     Kitti,      ///< file: 3×4 row-major matrix a line, one line a scan
     SimpleMap,  ///< key frames of a simplemap file, by their observations' time stamps
+    Icp,        ///< registration of the 3-D scans of one sensor label
     KeyFrames   ///< the log is a simplemap: its own poses
   };
   Kind kind = Kind::Odometry;
   std::string argument;  ///< sensor label (may be empty) or file
 
-  /// `odometry`, `robot-pose[:LABEL]`, `tum:FILE`, `kitti:FILE`, `simplemap:FILE`. Throws
-  /// ConfigError.
+  /// `odometry`, `robot-pose[:LABEL]`, `tum:FILE`, `kitti:FILE`, `simplemap:FILE`, `icp[:LABEL]`.
+  /// Throws ConfigError.
   static PoseChoice parse(const std::string& text);
+  bool takesFile() const;
   /// The inverse of parse(); "key-frames" for KeyFrames.
   std::string toString() const;
 };
@@ -44,10 +52,17 @@ class PoseSource {
   /// chosen), FileError for a file of poses that is wrong.
   PoseSource(const std::optional<PoseChoice>& choice, const RawlogSurvey& survey);
 
+  ~PoseSource();
+  PoseSource(PoseSource&& other) noexcept;
+
   const PoseChoice& choice() const { return choice_; }
 
   /// To be called with every entry of the log, in order, before poseOf() its observations.
   void advance(const RawlogEntry& entry);
+
+  /// False if entries that are still to come can give poses to observations of this one: poses by
+  /// registration of scans are known up to the last scan.
+  bool knows(const RawlogEntry& entry) const;
 
   /// Nothing if there is no pose for this observation: it lies outside the time span of the poses,
   /// has no time stamp, or comes after the last line of a KITTI file. Poses in time are
@@ -57,10 +72,15 @@ class PoseSource {
   std::optional<mrpt::poses::CPose3D> poseOf(const RawlogEntry& entry,
                                              const mrpt::obs::CObservation& observation);
 
+  /// The registered poses and what became of the scans; nothing with other poses.
+  std::optional<RegistrationReport> registration() const;
+  const PoseTrack& track() const { return track_; }
+
  private:
   static PoseChoice defaultChoice(const RawlogSurvey& survey);
   void useLog(const RawlogSurvey& survey);
   void useFile();
+  void useScans(const RawlogSurvey& survey);
 
   PoseChoice choice_;
   PoseTrack track_;
@@ -68,6 +88,7 @@ class PoseSource {
   mrpt::poses::CPose3D integrated_;
   std::vector<mrpt::poses::CPose3D> by_index_;
   std::map<std::string, std::size_t> next_index_;
+  std::unique_ptr<detail::RegisteredScans> scans_;  ///< null for other poses
 };
 
 }  // namespace csom

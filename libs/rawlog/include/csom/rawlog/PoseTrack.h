@@ -20,6 +20,10 @@ class PoseTrack {
   /// of the first and last time.
   std::optional<mrpt::poses::CPose3D> at(double time) const;
 
+  /// True if `time` is not after the last pose.
+  bool reaches(double time) const { return !poses_.empty() && time <= poses_.rbegin()->first; }
+
+  const std::map<double, mrpt::poses::CPose3D>& poses() const { return poses_; }
   std::size_t size() const { return poses_.size(); }
   bool empty() const { return poses_.empty(); }
 

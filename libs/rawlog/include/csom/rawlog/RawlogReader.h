@@ -37,14 +37,19 @@ struct RawlogEnd {
 /// time.
 ///
 /// An entry so damaged that MRPT crashes reading it ends the process with exit code 1 and one line
-/// on stderr, as no exception can leave such a place.
+/// on stderr, as no exception can leave such a place. That and a limit on the memory of an entry
+/// are matters of the whole process: while next() runs, other threads should neither crash nor take
+/// much memory. A log that has been read before needs neither.
 ///
 /// Opening a log makes the folder of its externalised images (FILE_Images, or Images beside it)
 /// MRPT's process-wide base path, so two logs with images cannot be read alternately.
 class RawlogReader {
  public:
+  /// Known: the log has been read up to where it will be read now, without any damage.
+  enum class Soundness { Unknown, Known };
+
   /// Throws FileError if the file is missing, empty, a folder, or neither a rawlog nor a simplemap.
-  explicit RawlogReader(const std::string& file);
+  explicit RawlogReader(const std::string& file, Soundness soundness = Soundness::Unknown);
   ~RawlogReader();
   RawlogReader(const RawlogReader&) = delete;
   RawlogReader& operator=(const RawlogReader&) = delete;
@@ -60,7 +65,9 @@ class RawlogReader {
 
  private:
   class Archive;
+  struct Guard;
 
+  std::unique_ptr<Guard> guard() const;  ///< null if the log is known to be sound
   void readStart();
   bool readEntry(RawlogEntry& entry);
   bool accept(const std::shared_ptr<mrpt::serialization::CSerializable>& object,
@@ -70,6 +77,7 @@ class RawlogReader {
 
   std::string file_;
   std::string image_folder_;
+  Soundness soundness_;
   std::uint64_t memory_allowance_ = 0;  ///< of one entry [bytes]
   std::unique_ptr<Archive> archive_;
   std::optional<RawlogEntry> first_;  ///< read when opening, to know that this is a rawlog

@@ -19,6 +19,7 @@ struct RawlogSurvey {
   bool has_actions = false;                      ///< any entry is an action
   std::map<std::string, PoseTrack> robot_poses;  ///< by sensor label
   std::map<std::string, PoseTrack> odometry;     ///< CObservationOdometry, by sensor label
+  std::map<std::string, std::size_t> scans_3d;   ///< what `--poses icp` takes, by sensor label
   PoseTrack key_frames;            ///< of a simplemap, at the first time stamp of each key frame
   std::size_t invalid_poses = 0;   ///< poses left out: not finite or without a time stamp
   std::size_t external_files = 0;  ///< externalised images and clouds

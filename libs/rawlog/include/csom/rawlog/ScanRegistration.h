@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where a robot drives, found by laying each of its 3-D scans over those before it.
+#pragma once
+
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <deque>
+#include <string>
+#include <vector>
+
+namespace csom {
+
+/// How the scans of a log were registered.
+struct RegistrationReport {
+  std::size_t scans = 0;     ///< registered, doubtful ones included
+  std::size_t doubtful = 0;  ///< have the pose that was expected, as what fitted cannot be trusted
+  double seconds = 0;        ///< of computing
+  std::vector<std::string> doubts;  ///< the first of them: scan, time and reason, a line each
+};
+
+/// Registers scans with MRPT's ICP (mrpt::slam::CICP) against a submap of the latest key frames,
+/// from where a constant velocity would have brought the robot. The first scan's pose is the
+/// identity. The same scans give the same poses, bit for bit. Not thread-safe.
+///
+/// What it cannot see: a place that looks alike along a direction (a tunnel, open ground), where
+/// scans fit wherever they are laid.
+class ScanRegistration {
+ public:
+  struct Result {
+    mrpt::poses::CPose3D pose;  ///< of the robot; of a doubtful scan the predicted one
+    std::string doubt;          ///< why the scan cannot be trusted, one line; empty if it can
+  };
+
+  /// `time` [s], later than that of the scan before; `points` in the frame of the robot [m].
+  Result add(double time, const std::vector<Eigen::Vector3f>& points);
+
+  /// How the robot is expected to move in `seconds` from its last pose on.
+  mrpt::poses::CPose3D predictedMotion(double seconds) const;
+
+ private:
+  using Points = std::vector<Eigen::Vector3f>;
+
+  struct KeyFrame {
+    mrpt::poses::CPose3D pose;
+    Points points;  ///< in the frame of the robot
+  };
+
+  Result registered(const Points& points, const mrpt::poses::CPose3D& predicted) const;
+  void keepAsKeyFrame(const mrpt::poses::CPose3D& pose, Points points);
+  void buildSubmap();
+
+  std::deque<KeyFrame> key_frames_;      ///< the oldest first
+  mrpt::maps::CSimplePointsMap submap_;  ///< in the frame of the newest key frame
+  double last_time_ = 0;
+  mrpt::poses::CPose3D last_pose_;
+  mrpt::poses::CPose3D last_motion_;  ///< from the pose before the last one
+  double last_motion_seconds_ = 0;    ///< 0: not known yet
+  std::size_t doubtful_in_a_row_ = 0;
+};
+
+}  // namespace csom

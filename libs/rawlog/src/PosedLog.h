@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A log whose observations have poses.
+#pragma once
+
+#include <csom/rawlog/PoseSource.h>
+#include <csom/rawlog/RawlogReader.h>
+#include <csom/rawlog/RawlogSurvey.h>
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace csom::detail {
+
+struct PosedObservation {
+  mrpt::obs::CObservation::Ptr observation;
+  std::optional<mrpt::poses::CPose3D> pose;  ///< of the robot; nothing: there is none at its time
+};
+
+/// The observations of an entry that say something of the world: those that only tell poses are
+/// left out.
+using PosedEntry = std::vector<PosedObservation>;
+
+/// Reads a log that has been surveyed, up to where it is sound. An entry is handed out when its
+/// poses are known, or kMostWaiting entries later: a time stamp far ahead of all scans must not
+/// collect the rest of the log in memory.
+class PosedLog {
+ public:
+  /// `poses` must outlive this.
+  PosedLog(const RawlogSurvey& survey, PoseSource& poses);
+
+  std::optional<PosedEntry> next();
+
+ private:
+  static constexpr std::size_t kMostWaiting = 256;
+
+  bool readOne();
+  PosedEntry posed(const RawlogEntry& entry);
+
+  RawlogReader reader_;
+  std::size_t unread_;
+  PoseSource& poses_;
+  std::deque<RawlogEntry> waiting_;
+};
+
+}  // namespace csom::detail

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The poses of a log that come from registering its scans.
+#include "RegisteredScans.h"
+
+#include <csom/maps/PointExtractor.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationRotatingScan.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "EigenPose.h"
+#include "MrptText.h"
+
+namespace csom::detail {
+namespace {
+
+/// Further ones would only fill the terminal; all are counted.
+constexpr std::size_t kDoubtsKept = 5;
+
+/// Points of a scan in the frame of the robot; none if they cannot be read.
+std::vector<Eigen::Vector3f> pointsOnRobot(const mrpt::obs::CObservation& scan) {
+  const LabelSet labels = LabelSet::occupancy();
+  const LabelRules no_labels(labels, PointLabels::None, "", "");
+  SensorPoints sensed;
+  try {
+    sensed = findPointExtractor(scan)->extract(scan, no_labels);
+  } catch (const std::exception&) {
+    return {};
+  }
+  const Eigen::Isometry3d on_robot = toEigen(sensed.sensor_pose);
+  for (Eigen::Vector3f& point : sensed.points)
+    point = (on_robot * point.cast<double>()).cast<float>();
+  return std::move(sensed.points);
+}
+
+}  // namespace
+
+bool isScan3D(const mrpt::obs::CObservation& observation) {
+  return dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(&observation) != nullptr ||
+         dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation) != nullptr ||
+         dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation) != nullptr;
+}
+
+void RegisteredScans::add(const mrpt::obs::CObservation& observation, PoseTrack& track) {
+  if (observation.sensorLabel != sensor_label_ || !isScan3D(observation)) return;
+  const auto time = secondsOf(observation.timestamp);
+  if (!time) return;
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<Eigen::Vector3f> points = pointsOnRobot(observation);
+  if (points.empty()) return;
+  ++report_.scans;
+  if (last_time_ && *time <= *last_time_) {
+    noteDoubt(*time, "it is not later than the scan before, so it is not registered at all");
+    return;
+  }
+  last_time_ = time;
+  const ScanRegistration::Result result = registration_.add(*time, points);
+  track.add(*time, result.pose);
+  if (!result.doubt.empty()) noteDoubt(*time, result.doubt);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  report_.seconds += elapsed.count();
+}
+
+void RegisteredScans::noteDoubt(double time, const std::string& doubt) {
+  if (report_.doubtful++ >= kDoubtsKept) return;
+  char place[96];
+  std::snprintf(place, sizeof place,
+                "registration of scan %zu at t=%.3f s is doubtful: ", report_.scans - 1, time);
+  report_.doubts.push_back(place + doubt);
+}
+
+}  // namespace csom::detail
