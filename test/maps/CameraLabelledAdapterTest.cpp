@@ -353,6 +353,14 @@ TEST_F(CameraLabelledAdapterTest, slightDisorderIsSorted) {
   EXPECT_EQ(statistics().restarts, 0U);
 }
 
+TEST_F(CameraLabelledAdapterTest, timeMayBeginAtZero) {
+  auto image = labelImage(0);
+  auto scan = scanAt(0);
+  image->timestamp = scan->timestamp = mrpt::Clock::fromDouble(0);
+  give(*image);
+  EXPECT_EQ(give(*scan).size(), 1U);
+}
+
 TEST_F(CameraLabelledAdapterTest, aClockThatGoesBackStartsAnew) {
   give(*labelImage(100, kWallId, kWallId));
   give(*scanAt(100.02));

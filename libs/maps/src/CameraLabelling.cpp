@@ -29,10 +29,9 @@ class Stopwatch {
 };
 
 double timeOf(const mrpt::obs::CObservation& observation) {
-  const double time = secondsSince1970(observation);
-  if (time == 0)
+  if (observation.timestamp == INVALID_TIMESTAMP)
     throw std::runtime_error("it has no time stamp, by which images and scans are joined");
-  return time;
+  return secondsSince1970(observation);
 }
 
 }  // namespace
@@ -103,7 +102,7 @@ std::optional<std::vector<AdaptedScan>> CameraLabelling::adapt(
     if (image) addImage(camera, *image, time, robot_pose);
     if (extractor != nullptr) {
       scan.time = time;
-      scan.late = time + options_.max_time_offset < clock_;
+      scan.late = time + options_.max_time_offset < *clock_;
       scan.sensor_in_map = sensorPoseInMap(robot_pose, scan.points.sensor_pose);
       waiting_.push_back(std::move(scan));
     }
@@ -191,7 +190,7 @@ void CameraLabelling::addImage(std::size_t camera, const CameraImage& image, dou
 }
 
 void CameraLabelling::advanceClock(double time) {
-  if (clock_ != 0 && time < clock_ - restart()) {
+  if (clock_ && time < *clock_ - restart()) {
     ++statistics_.restarts;
     clock_ = time;
     while (!waiting_.empty()) {
@@ -201,11 +200,11 @@ void CameraLabelling::advanceClock(double time) {
     }
     for (Camera& camera : cameras_) camera.images.clear();
   }
-  clock_ = std::max(clock_, time);
+  clock_ = std::max(clock_.value_or(time), time);
 }
 
 bool CameraLabelling::isReady(const WaitingScan& scan) const {
-  return clock_ > scan.time + options_.max_time_offset ||
+  return *clock_ > scan.time + options_.max_time_offset ||
          std::all_of(cameras_.begin(), cameras_.end(),
                      [&](const Camera& camera) { return camera.images.reaches(scan.time); });
 }
@@ -231,7 +230,7 @@ std::vector<AdaptedScan> CameraLabelling::flush() {
     finish(scan);
   }
   for (Camera& camera : cameras_) camera.images.clear();
-  clock_ = 0;
+  clock_.reset();
   return std::exchange(finished_, {});
 }
 
@@ -304,7 +303,7 @@ void CameraLabelling::finish(const WaitingScan& scan) {
 
 /// Images that no scan can need any more: scans may come late by as much as restart().
 void CameraLabelling::forgetImages() {
-  double oldest = clock_;
+  double oldest = *clock_;
   for (const WaitingScan& scan : waiting_) oldest = std::min(oldest, scan.time);
   for (Camera& camera : cameras_)
     camera.images.forgetBefore(oldest - options_.max_time_offset - restart());

@@ -79,7 +79,7 @@ class CameraLabelling {
   std::vector<Camera> cameras_;
   std::deque<WaitingScan> waiting_;
   std::vector<AdaptedScan> finished_;  ///< handed out by the next call
-  double clock_ = 0;                   ///< latest time of an observation; 0: none yet
+  std::optional<double> clock_;        ///< latest time of an observation
   CameraStatistics statistics_;
 };
 

@@ -150,7 +150,8 @@ void visitNumbers(Statistics& s, Visitor&& visit) {
 
 void CameraLabelling::writeTo(ByteWriter& out) const {
   visitNumbers(statistics_, [&](const auto& number) { out.number(number); });
-  out.number(clock_);
+  out.number(static_cast<std::uint8_t>(clock_.has_value()));
+  out.number(clock_.value_or(0));
   for (const Camera& camera : cameras_) {
     out.number(static_cast<std::uint64_t>(camera.image_count));
     out.number(static_cast<std::uint64_t>(camera.images.images().size()));
@@ -163,7 +164,9 @@ void CameraLabelling::writeTo(ByteWriter& out) const {
 void CameraLabelling::readFrom(ByteReader& in) {
   visitNumbers(statistics_,
                [&](auto& number) { number = in.number<std::decay_t<decltype(number)>>(); });
-  clock_ = in.number<double>();
+  const bool has_clock = in.flag();
+  const auto clock = in.number<double>();
+  clock_ = has_clock ? std::make_optional(clock) : std::nullopt;
   for (Camera& camera : cameras_) {
     camera.image_count = in.number<std::uint64_t>();
     camera.images.clear();
