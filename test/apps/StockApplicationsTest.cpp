@@ -124,6 +124,53 @@ TEST(Observations2map, makesTheMapOfCsomMap) {
             mapDigest(ours.map));
 }
 
+/// Maps a log by csom, and what csom writes as a simplemap by observations2map.
+void expectTheMapOfCsomMap(const std::string& log, const std::string& config) {
+  const TempFolder folder;
+  const ProgramResult mapping =
+      runCsom(folder.path(), {"map", log, "-c", config, "-o", folder / "out", "--no-html",
+                              "--write-simplemap", folder / "drive.simplemap"});
+  ASSERT_EQ(mapping.exit_code, 0) << mapping.errors;
+  const ProgramResult run =
+      runStock(folder.path(), {"observations2map", config, folder / "drive.simplemap", "stock_"});
+  ASSERT_EQ(run.exit_code, 0) << run.output << run.errors;
+  const MapDocument ours = loadMap(folder / "out/map.csom");
+  const MapDocument stock = loadMap(folder / ("stock_" + kMapSuffix));
+  EXPECT_EQ(stock.scans.size(), ours.scans.size());
+  EXPECT_GT(stock.scans.size(), 10u);
+  EXPECT_GT(stock.map.knownVoxelCount(), 1000u);
+  EXPECT_EQ(mapDigest(stock.map), mapDigest(ours.map));
+}
+
+TEST(Observations2map, makesTheMapOfCsomMapWithANetworkInTheLoop) {
+  expectTheMapOfCsomMap(kCampusLog, kConfigs + "campus-camera.ini");
+}
+
+/// A camera that works at other times than the LiDAR: scans wait for images, the last one in vain.
+TEST(Observations2map, makesTheMapOfCsomMapWhereImagesAndScansAreApart) {
+  const TempFolder folder;
+  std::string world = readBytes(CSOM_SOURCE_DIR "/config/worlds/campus.yaml");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = world.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    world.replace(at, from.size(), to);
+  };
+  replace("waypoints: [[0, -1.6], [53.4, -1.6], [53.4, 38]]", "waypoints: [[0, -1.6], [20, -1.6]]");
+  replace("pose: [0.3, 0, 1.5, 0, 4, 0]\n    rate: 1.5",
+          "pose: [0.3, 0, 1.5, 0, 4, 0]\n    rate: 3.7");
+  writeBytes(folder / "world.yaml", world);
+  const ProgramResult simulation =
+      runCsom(folder.path(), {"simulate", folder / "world.yaml", "-o", folder / "drive.rawlog",
+                              "--format", "observations"});
+  ASSERT_EQ(simulation.exit_code, 0) << simulation.errors;
+
+  std::string config = readBytes(kConfigs + "campus-camera.ini");
+  config.replace(config.find("networks/campus.yaml"), 20, kConfigs + "networks/campus.yaml");
+  config.replace(config.find("max_time_offset = 0.1"), 21, "max_time_offset = 0.2");
+  writeBytes(folder / "map.ini", config);
+  expectTheMapOfCsomMap(folder / "drive.rawlog", folder / "map.ini");
+}
+
 TEST(Observations2map, warnsOfUnknownKeys) {
   const TempFolder folder;
   std::ofstream(folder / "map.ini")
@@ -185,6 +232,24 @@ TEST(RbpfSlam, mapsADataSetOfMrpt) {
 
 TEST(RbpfSlam, mapsTheCampusDrive) {
   expectMapOfKeyFrames(kConfigs + "mrpt/rbpf-slam-campus.ini", kCampusLog,
+                       CLASS_ID(mrpt::obs::CObservationVelodyneScan));
+}
+
+/// Every particle labels its scans by the network, whose words it finds in the cache.
+TEST(RbpfSlam, mapsTheCampusDriveWithLabelsFromTheCamera) {
+  const TempFolder folder;
+  std::string config = readBytes(kConfigs + "mrpt/rbpf-slam-campus.ini");
+  const std::string by_intensity = "point_labels = intensity";
+  config.replace(config.find(by_intensity), by_intensity.size(), "point_labels = none");
+  config +=
+      "\n[MappingApplication_semanticContinuousMap_00_labelSource_00]\n"
+      "sensor_label = camera\nsource = network\nnetwork = " +
+      kConfigs +
+      "networks/campus.yaml\n"
+      "[MappingApplication_semanticContinuousMap_00_labelOpts]\nlabel_cache = " +
+      (folder / "cache") + "\n";
+  writeBytes(folder / "rbpf.ini", config);
+  expectMapOfKeyFrames(folder / "rbpf.ini", kCampusLog,
                        CLASS_ID(mrpt::obs::CObservationVelodyneScan));
 }
 
