@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Building, checking and reading chunk records.
+// Checking and reading chunk records.
 #include <csom/core/Chunk.h>
-#include <csom/core/DirichletVoxel.h>
 
 #include <cstring>
-#include <new>
 #include <stdexcept>
 #include <string>
+
+#include "ChunkBuilder.h"
 
 namespace csom {
 
@@ -14,68 +14,16 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "chunk records are litt
 
 namespace {
 
-std::size_t recordBytes(std::size_t voxels, std::size_t entries) {
-  const std::size_t used = sizeof(Chunk::Header) + 4 * entries + 2 * voxels + entries;
-  return (used + 7) / 8 * 8;
-}
-
 [[noreturn]] void rejectRecord(const std::string& reason) {
   throw std::runtime_error("not a valid chunk record: " + reason);
 }
 
 }  // namespace
 
-/// The only code that writes into a chunk.
-class ChunkBuilder {
- public:
-  static Chunk* allocate(std::size_t record_size) {
-    void* memory = ::operator new(sizeof(Chunk) + record_size);
-    return new (memory) Chunk(static_cast<std::uint32_t>(record_size));
-  }
-  static void* record(Chunk* chunk) { return chunk + 1; }
-  static std::uint32_t* counts(Chunk* chunk) { return const_cast<std::uint32_t*>(chunk->counts()); }
-  static std::uint16_t* firstEntries(Chunk* chunk) {
-    return const_cast<std::uint16_t*>(chunk->firstEntries());
-  }
-  static std::uint8_t* classes(Chunk* chunk) { return const_cast<std::uint8_t*>(chunk->classes()); }
-
-  /// `entries` sorted by (voxel, class), each pair once, not empty.
-  static ChunkRef build(const std::vector<CountIncrement>& entries) {
-    Chunk::Header header{};
-    for (const CountIncrement& entry : entries)
-      header.known[entry.voxel >> 6U] |= std::uint64_t{1} << (entry.voxel & 63U);
-    std::uint32_t voxels = 0;
-    for (std::size_t word = 0; word < 8; ++word) {
-      header.word_voxels[word] = static_cast<std::uint16_t>(voxels);
-      voxels += static_cast<std::uint32_t>(__builtin_popcountll(header.known[word]));
-    }
-    header.voxel_count = voxels;
-    header.entry_count = static_cast<std::uint32_t>(entries.size());
-
-    const std::size_t size = recordBytes(voxels, entries.size());
-    Chunk* chunk = allocate(size);
-    auto* bytes = static_cast<unsigned char*>(record(chunk));
-    std::memset(bytes + size - 8, 0, 8);  // the padding, before anything that may overlap it
-    std::memcpy(bytes, &header, sizeof header);
-
-    auto& word_entries = static_cast<Chunk::Header*>(record(chunk))->word_entries;
-    std::uint32_t* const count = counts(chunk);
-    std::uint16_t* const first = firstEntries(chunk);
-    std::uint8_t* const class_id = classes(chunk);
-    std::size_t voxel = 0;
-    std::size_t word = 0;
-    for (std::uint32_t i = 0; i < entries.size(); ++i) {
-      const CountIncrement& entry = entries[i];
-      count[i] = entry.count;
-      class_id[i] = static_cast<std::uint8_t>(entry.class_id);
-      if (i > 0 && entries[i - 1].voxel == entry.voxel) continue;
-      for (const std::size_t current = entry.voxel >> 6U; word < current;) word_entries[++word] = i;
-      first[voxel++] = static_cast<std::uint16_t>(i - word_entries[word]);
-    }
-    while (word < 7) word_entries[++word] = header.entry_count;
-    return ChunkRef(chunk);
-  }
-};
+std::size_t Chunk::recordBytes(std::size_t voxels, std::size_t entries) {
+  const std::size_t used = sizeof(Header) + 4 * entries + 2 * voxels + entries;
+  return (used + 7) / 8 * 8;
+}
 
 ChunkRef Chunk::fromRecord(const void* bytes, std::size_t size, int number_of_classes) {
   if (size < sizeof(Header)) rejectRecord(std::to_string(size) + " bytes, shorter than its header");
@@ -96,8 +44,8 @@ ChunkRef Chunk::fromRecord(const void* bytes, std::size_t size, int number_of_cl
                  std::to_string(recordBytes(voxels, header.entry_count)));
 
   // The sizes fit: only now is memory taken and the rest looked at.
-  ChunkRef copy(ChunkBuilder::allocate(size));
-  std::memcpy(ChunkBuilder::record(copy.chunk_), bytes, size);
+  ChunkRef copy = ChunkBuilder::allocate(size);
+  std::memcpy(ChunkBuilder::record(copy), bytes, size);
   std::uint32_t rank = 0;
   for (std::size_t word = 0; word < 8; ++word) {
     const std::uint32_t begin = header.word_entries[word];
@@ -156,28 +104,7 @@ std::vector<CountIncrement> Chunk::toIncrements() const {
 }
 
 ChunkRef Chunk::sum(const Chunk* base, const std::vector<CountIncrement>& increments) {
-  if (base == nullptr) return ChunkBuilder::build(increments);
-  const auto position = [](std::uint32_t voxel, std::uint32_t class_id) {
-    return voxel << 16U | class_id;
-  };
-  std::vector<CountIncrement> merged;
-  merged.reserve(base->header().entry_count + increments.size());
-  auto next = increments.begin();
-  base->forEachKnown([&](int voxel) {
-    const Entries entries = base->at(voxel);
-    for (int i = 0; i < entries.size; ++i) {
-      CountIncrement entry{static_cast<std::uint16_t>(voxel), entries.classes[i],
-                           entries.counts[i]};
-      const std::uint32_t here = position(entry.voxel, entry.class_id);
-      while (next != increments.end() && position(next->voxel, next->class_id) < here)
-        merged.push_back(*next++);
-      if (next != increments.end() && position(next->voxel, next->class_id) == here)
-        entry.count = addCounts(entry.count, next++->count);
-      merged.push_back(entry);
-    }
-  });
-  merged.insert(merged.end(), next, increments.end());
-  return ChunkBuilder::build(merged);
+  return ChunkBuilder().sum(base, increments);
 }
 
 void ChunkRef::release() {
@@ -189,24 +116,7 @@ void ChunkRef::release() {
 }
 
 bool ChunkRef::addInPlace(const std::vector<CountIncrement>& increments) {
-  if (chunk_->references_.load(std::memory_order_acquire) != 1) return false;
-  const auto position = [this](const CountIncrement& increment) -> std::uint32_t* {
-    const Chunk::Entries entries = chunk_->at(increment.voxel);
-    for (int i = 0; i < entries.size; ++i) {
-      if (entries.classes[i] == increment.class_id)
-        return const_cast<std::uint32_t*>(entries.counts + i);
-    }
-    return nullptr;
-  };
-  std::vector<std::uint32_t*> positions;
-  positions.reserve(increments.size());
-  for (const CountIncrement& increment : increments) {
-    positions.push_back(position(increment));
-    if (positions.back() == nullptr) return false;
-  }
-  for (std::size_t i = 0; i < increments.size(); ++i)
-    *positions[i] = addCounts(*positions[i], increments[i].count);
-  return true;
+  return ChunkBuilder().addInPlace(*this, increments);
 }
 
 }  // namespace csom

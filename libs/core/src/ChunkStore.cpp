@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "ChunkBuilder.h"
 #include "Parallel.h"
 
 namespace csom {
@@ -65,11 +66,9 @@ void ChunkStore::add(const ScanIncrements& increments, int threads) {
   slots.reserve(increments.size());
   for (const ChunkIncrements& chunk : increments) slots.push_back(&slotFor(chunk.chunk));
   detail::parallelRanges(increments.size(), threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      ChunkRef& chunk = slots[i]->chunk;
-      if (!chunk || !chunk.addInPlace(increments[i].increments))
-        chunk = Chunk::sum(chunk.get(), increments[i].increments);
-    }
+    ChunkBuilder builder;
+    for (std::size_t i = begin; i < end; ++i)
+      builder.add(slots[i]->chunk, increments[i].increments);
   });
 }
 

@@ -27,7 +27,6 @@ double contextEntropy(const BlockContext& context, const Options& options) {
 
 std::vector<FilledBlock> filledBlocks(const std::vector<BlockIndex>& observed_blocks,
                                       const Options& options) {
-  using detail::KeyedItem;
   using detail::KeyPacking;
   constexpr std::uint32_t kKindBits = 2;
   constexpr std::uint32_t kKindMask = 3;
@@ -38,7 +37,7 @@ std::vector<FilledBlock> filledBlocks(const std::vector<BlockIndex>& observed_bl
   // Every observed block announces itself to its extended block; what a block hears is its context.
   const std::vector<detail::BlockOffset> offsets =
       detail::extendedBlock(options.context_neighbours);
-  std::vector<KeyedItem> heard;
+  std::vector<detail::KeyedItem<std::uint64_t>> heard;
   heard.reserve(observed_blocks.size() * offsets.size());
   for (std::size_t i = 0; i < observed_blocks.size(); ++i) {
     const BlockIndex& b = observed_blocks[i];

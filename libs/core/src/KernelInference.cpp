@@ -138,7 +138,7 @@ class Inference {
       packing.include({c.x, c.y, c.z});
     }
     packing.finish();
-    std::vector<detail::KeyedItem> sorted(filled_.size());
+    std::vector<detail::KeyedItem<std::uint64_t>> sorted(filled_.size());
     for (std::size_t i = 0; i < sorted.size(); ++i) {
       const ChunkIndex c = chunkOfBlock(filled_[i].index);
       sorted[i] = {packing.pack({c.x, c.y, c.z}), static_cast<std::uint32_t>(i)};
@@ -294,7 +294,7 @@ ScanIncrements countPoints(const PreparedScan& scan, const Options& options, Sca
     packing.include({chunkOf(voxel.x), chunkOf(voxel.y), chunkOf(voxel.z)});
   }
   packing.finish();
-  std::vector<detail::KeyedItem> sorted;
+  std::vector<detail::KeyedItem<std::uint64_t>> sorted;
   sorted.reserve(scan.blocks.size());
   for (std::size_t b = 0; b < scan.blocks.size(); ++b) {
     const BlockIndex& voxel = scan.blocks[b];

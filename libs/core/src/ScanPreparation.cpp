@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csom/core/ScanPreparation.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
-#include "SortedKeys.h"
+#include "CellKeys.h"
+#include "DownSampling.h"
+#include "Parallel.h"
+#include "PointSet.h"
 
 namespace csom {
 
 namespace {
 
-using detail::KeyedItem;
 using detail::KeyPacking;
+using detail::PointSet;
 
 constexpr double kScoreTolerance = 1e-3;
 /// Cells from the origin that a scan may reach along an axis: three axes of 21 bits, with a margin
@@ -25,18 +30,6 @@ constexpr double kReachCells = (1 << 20) - 4;
 constexpr double kMostFreeSteps = 1 << 13;
 /// Free samples of one scan, before down-sampling: some gigabytes.
 constexpr double kMostFreeSamples = 1 << 27;
-
-/// Labelled points on their way through the stages, relative to the scan's origin.
-struct PointSet {
-  std::vector<Eigen::Vector3f> points;
-  std::vector<ClassId> labels;
-  std::vector<float> scores;
-
-  void reserve(std::size_t size) {
-    points.reserve(size);
-    labels.reserve(size);
-  }
-};
 
 void checkSizes(const Scan& scan, int classes) {
   const auto fail = [&](const char* what, std::size_t size, std::size_t expected) {
@@ -67,18 +60,27 @@ bool validScores(const float* scores, int classes) {
 class Preparation {
  public:
   Preparation(const Scan& scan, const Options& options, ScanReport& report)
-      : scan_(scan), options_(options), report_(report), grid_(options.resolution) {}
+      : scan_(scan),
+        options_(options),
+        report_(report),
+        grid_(options.resolution),
+        origin_is_finite_(scan.origin.allFinite()),
+        origin_is_inside_(grid_.contains(scan.origin)),
+        reach_(kReachCells * (options.ds_resolution > 0
+                                  ? std::min(options.ds_resolution, options.resolution)
+                                  : options.resolution)),
+        longest_beam_(longestBeam()) {}
 
   PreparedScan run() {
     out_.block_depth = options_.method == Method::SCsm ? 1 : options_.block_depth;
     out_.origin = scan_.origin;
     report_.points += scan_.points.size();
-    PointSet hits = downSample(accept());
+    PointSet hits = detail::downSample(accept(), scan_.origin, options_);
     report_.training_points += hits.points.size();
     if (!hits.points.empty()) {
       if (options_.free_space == FreeSpace::Raycast) recordBeams(hits);
       if (options_.free_space == FreeSpace::Sampled)
-        append(hits, downSample(sampleFreeSpace(hits)));
+        appendFreePoints(hits, detail::downSample(sampleFreeSpace(hits), scan_.origin, options_));
       bin(hits);
     }
     return std::move(out_);
@@ -91,17 +93,14 @@ class Preparation {
 
   std::optional<RejectReason> reasonToReject(std::size_t i) const {
     const Eigen::Vector3d p = scan_.points[i].cast<double>();
-    if (!p.allFinite() || !scan_.origin.allFinite()) return RejectReason::NonFinite;
+    if (!p.allFinite() || !origin_is_finite_) return RejectReason::NonFinite;
     const double range = p.norm();
     if (range < options_.min_range) return RejectReason::TooNear;
     if (options_.max_range > 0 && range > options_.max_range) return RejectReason::TooFar;
-    const double cell = options_.ds_resolution > 0
-                            ? std::min(options_.ds_resolution, options_.resolution)
-                            : options_.resolution;
-    if (p.cwiseAbs().maxCoeff() >= kReachCells * cell || !grid_.contains(scan_.origin) ||
+    if (p.cwiseAbs().maxCoeff() >= reach_ || !origin_is_inside_ ||
         !grid_.contains(scan_.origin + p))
       return RejectReason::OutsideIndexRange;
-    if (range > longestBeam()) return RejectReason::BeamTooLong;
+    if (range > longest_beam_) return RejectReason::BeamTooLong;
     if (!scan_.isSoft()) {
       if (scan_.labels[i] >= options_.number_of_classes) return RejectReason::ClassOutOfRange;
     } else if (!validScores(rowOf(scan_.scores, i), options_.number_of_classes)) {
@@ -123,78 +122,55 @@ class Preparation {
   }
 
   PointSet accept() {
-    PointSet accepted;
-    accepted.reserve(scan_.points.size());
-    for (std::size_t i = 0; i < scan_.points.size(); ++i) {
-      if (const auto reason = reasonToReject(i)) {
-        ++report_.rejected[static_cast<std::size_t>(*reason)];
-        continue;
+    constexpr std::uint8_t kAccepted = kRejectReasons;
+    std::vector<std::uint8_t> reasons(scan_.points.size());
+    std::atomic<std::size_t> rejected{0};
+    detail::parallelRanges(reasons.size(), options_.threads,
+                           [&](std::size_t begin, std::size_t end) {
+                             std::size_t rejected_here = 0;
+                             for (std::size_t i = begin; i < end; ++i) {
+                               const auto reason = reasonToReject(i);
+                               reasons[i] = reason ? static_cast<std::uint8_t>(*reason) : kAccepted;
+                               rejected_here += reason ? 1 : 0;
+                             }
+                             rejected += rejected_here;
+                           });
+    PointSet accepted{scan_.points, scan_.labels, scan_.scores};
+    if (rejected > 0) {
+      const auto classes = static_cast<std::size_t>(options_.number_of_classes);
+      std::size_t kept = 0;
+      for (std::size_t i = 0; i < reasons.size(); ++i) {
+        if (reasons[i] != kAccepted) {
+          ++report_.rejected[reasons[i]];
+          continue;
+        }
+        accepted.points[kept] = accepted.points[i];
+        if (!scan_.isSoft()) {
+          accepted.labels[kept] = accepted.labels[i];
+        } else if (kept < i) {
+          std::copy_n(rowOf(accepted.scores, i), classes,
+                      accepted.scores.begin() + static_cast<std::ptrdiff_t>(kept * classes));
+        }
+        ++kept;
       }
-      accepted.points.push_back(scan_.points[i]);
-      accepted.labels.push_back(scan_.isSoft() ? kFreeClass : scan_.labels[i]);
-      if (scan_.isSoft()) appendScores(accepted.scores, rowOf(scan_.scores, i));
-      if (options_.free_space == FreeSpace::Raycast)
-        out_.hit_voxels.push_back(grid_.voxelAt(inMap(scan_.points[i])));
+      accepted.points.resize(kept);
+      if (scan_.isSoft()) {
+        accepted.scores.resize(kept * classes);
+      } else {
+        accepted.labels.resize(kept);
+      }
     }
+    if (options_.free_space == FreeSpace::Raycast) recordHits(accepted);
     return accepted;
   }
 
-  /// One point a cell, at the centroid, with the majority class (ties: the lower id) or mean
-  /// scores.
-  PointSet downSample(PointSet in) const {
-    if (options_.ds_resolution <= 0 || in.points.empty()) return in;
-    const double cell = options_.ds_resolution;
-    std::vector<KeyPacking::Position> cells(in.points.size());
-    KeyPacking packing;
-    for (std::size_t i = 0; i < in.points.size(); ++i) {
-      const Eigen::Vector3d p = inMap(in.points[i]);
-      for (std::size_t a = 0; a < 3; ++a)
-        cells[i][a] = static_cast<std::int64_t>(std::floor(p[static_cast<Eigen::Index>(a)] / cell));
-      packing.include(cells[i]);
-    }
-    packing.finish();
-    std::vector<KeyedItem> sorted(in.points.size());
-    for (std::size_t i = 0; i < sorted.size(); ++i)
-      sorted[i] = {packing.pack(cells[i]), static_cast<std::uint32_t>(i)};
-    detail::stableSort(sorted, packing.bits());
-
-    PointSet out;
-    out.reserve(in.points.size());
-    std::vector<std::uint32_t> votes(static_cast<std::size_t>(options_.number_of_classes));
-    detail::forEachRun(sorted, [&](std::size_t begin, std::size_t end) {
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (std::size_t i = begin; i < end; ++i) sum += in.points[sorted[i].item].cast<double>();
-      out.points.push_back((sum / static_cast<double>(end - begin)).cast<float>());
-      if (in.scores.empty()) {
-        out.labels.push_back(majority(in.labels, sorted, begin, end, votes));
-      } else {
-        out.labels.push_back(kFreeClass);
-        appendMeanScores(out.scores, in.scores, sorted, begin, end);
-      }
-    });
-    return out;
-  }
-
-  static ClassId majority(const std::vector<ClassId>& labels, const std::vector<KeyedItem>& sorted,
-                          std::size_t begin, std::size_t end, std::vector<std::uint32_t>& votes) {
-    ClassId best = labels[sorted[begin].item];
-    for (std::size_t i = begin; i < end; ++i) {
-      const ClassId label = labels[sorted[i].item];
-      ++votes[label];
-      if (votes[label] > votes[best] || (votes[label] == votes[best] && label < best)) best = label;
-    }
-    for (std::size_t i = begin; i < end; ++i) votes[labels[sorted[i].item]] = 0;
-    return best;
-  }
-
-  void appendMeanScores(std::vector<float>& out, const std::vector<float>& scores,
-                        const std::vector<KeyedItem>& sorted, std::size_t begin,
-                        std::size_t end) const {
-    for (int k = 0; k < options_.number_of_classes; ++k) {
-      double sum = 0;
-      for (std::size_t i = begin; i < end; ++i) sum += rowOf(scores, sorted[i].item)[k];
-      out.push_back(static_cast<float>(sum / static_cast<double>(end - begin)));
-    }
+  void recordHits(const PointSet& accepted) {
+    out_.hit_voxels.resize(accepted.points.size());
+    detail::parallelRanges(accepted.points.size(), options_.threads,
+                           [&](std::size_t begin, std::size_t end) {
+                             for (std::size_t i = begin; i < end; ++i)
+                               out_.hit_voxels[i] = grid_.voxelAt(inMap(accepted.points[i]));
+                           });
   }
 
   /// Points of class 0 every free_resolution along each beam, the last one that far before the hit.
@@ -205,29 +181,50 @@ class Preparation {
     if (samples > kMostFreeSamples)
       throw std::invalid_argument("the beams of this scan have " + toString(samples) +
                                   " free samples; raise free_resolution or lower max_range");
+    // Where the samples of each hit begin, for threads to write side by side.
+    std::vector<std::size_t> first(hits.points.size() + 1);
+    for (std::size_t i = 0; i < hits.points.size(); ++i)
+      first[i + 1] = first[i] + freeSteps(hits.points[i].cast<double>().norm());
     PointSet out;
-    for (const Eigen::Vector3f& hit : hits.points) {
-      const Eigen::Vector3d p = hit.cast<double>();
-      const double range = p.norm();
-      for (double step = 1; range - step * options_.free_resolution > 0; ++step) {
-        out.points.push_back(
-            (p * ((range - step * options_.free_resolution) / range)).cast<float>());
-        out.labels.push_back(kFreeClass);
-        if (scan_.isSoft()) {
-          out.scores.push_back(1.0F);
-          out.scores.resize(
-              out.scores.size() + static_cast<std::size_t>(options_.number_of_classes) - 1, 0.0F);
-        }
-      }
-    }
+    out.points.resize(first.back());
+    detail::parallelRanges(
+        hits.points.size(), options_.threads, [&](std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i) {
+            const Eigen::Vector3d p = hits.points[i].cast<double>();
+            const double range = p.norm();
+            for (std::size_t n = first[i]; n < first[i + 1]; ++n) {
+              const auto step = static_cast<double>(n - first[i] + 1);
+              out.points[n] =
+                  (p * ((range - step * options_.free_resolution) / range)).cast<float>();
+            }
+          }
+        });
     return out;
   }
 
-  void append(PointSet& hits, const PointSet& free_points) {
+  /// Samples of a beam: steps that end before the sensor.
+  std::size_t freeSteps(double range) const {
+    // The quotient is rounded; what counts is the difference that a sample lies at.
+    auto steps = static_cast<std::size_t>(range / options_.free_resolution);
+    const auto isBeforeSensor = [&](std::size_t step) {
+      return range - static_cast<double>(step) * options_.free_resolution > 0;
+    };
+    while (isBeforeSensor(steps + 1)) ++steps;
+    while (steps > 0 && !isBeforeSensor(steps)) --steps;
+    return steps;
+  }
+
+  void appendFreePoints(PointSet& hits, PointSet free_points) {
     report_.free_points += free_points.points.size();
-    hits.points.insert(hits.points.end(), free_points.points.begin(), free_points.points.end());
-    hits.labels.insert(hits.labels.end(), free_points.labels.begin(), free_points.labels.end());
-    hits.scores.insert(hits.scores.end(), free_points.scores.begin(), free_points.scores.end());
+    if (scan_.isSoft()) {
+      const auto classes = static_cast<std::size_t>(options_.number_of_classes);
+      free_points.scores.resize(free_points.points.size() * classes);
+      for (std::size_t i = 0; i < free_points.points.size(); ++i)
+        free_points.scores[i * classes + kFreeClass] = 1.0F;
+    } else {
+      free_points.labels.resize(free_points.points.size(), kFreeClass);
+    }
+    hits.append(free_points);
   }
 
   void recordBeams(const PointSet& hits) {
@@ -236,56 +233,66 @@ class Preparation {
   }
 
   void bin(const PointSet& in) {
-    std::vector<KeyPacking::Position> blocks(in.points.size());
-    KeyPacking packing;
-    for (std::size_t i = 0; i < in.points.size(); ++i) {
-      const BlockIndex b = blockOf(grid_.voxelAt(inMap(in.points[i])), out_.block_depth);
-      blocks[i] = {b.x, b.y, b.z};
-      packing.include(blocks[i]);
-    }
-    packing.finish();
-    std::vector<KeyedItem> sorted(in.points.size());
-    for (std::size_t i = 0; i < sorted.size(); ++i)
-      sorted[i] = {packing.pack(blocks[i]), static_cast<std::uint32_t>(i)};
-    detail::stableSort(sorted, packing.bits());
+    const detail::CellGrid blocks{scan_.origin, options_.resolution, out_.block_depth - 1};
+    const KeyPacking packing = detail::packingOf(blocks, in.points);
+    detail::withKeyOf(packing, [&](auto key) {
+      bin(in, packing,
+          detail::sortedByCell<decltype(key)>(blocks, packing, in.points, options_.threads));
+    });
+    report_.blocks_observed += out_.blocks.size();
+  }
 
-    out_.points.reserve(sorted.size());
-    out_.scores.reserve(in.scores.size());
-    for (const KeyedItem& entry : sorted) {
-      const Eigen::Vector3d voxels = inMap(in.points[entry.item]) / options_.resolution;
-      const KeyPacking::Position& b = blocks[entry.item];
-      out_.points.push_back({fromCorner(voxels.x(), b[0]), fromCorner(voxels.y(), b[1]),
-                             fromCorner(voxels.z(), b[2]), in.labels[entry.item]});
-      if (!in.scores.empty()) appendScores(out_.scores, rowOf(in.scores, entry.item));
-    }
+  template <class Key>
+  void bin(const PointSet& in, const KeyPacking& packing,
+           const std::vector<detail::KeyedItem<Key>>& sorted) {
     detail::forEachRun(sorted, [&](std::size_t begin, std::size_t) {
-      const KeyPacking::Position b = blocks[sorted[begin].item];
+      const KeyPacking::Position b = packing.unpack(sorted[begin].key);
       out_.blocks.push_back({static_cast<std::int32_t>(b[0]), static_cast<std::int32_t>(b[1]),
                              static_cast<std::int32_t>(b[2])});
       out_.block_begin.push_back(static_cast<std::uint32_t>(begin));
     });
     out_.block_begin.push_back(static_cast<std::uint32_t>(sorted.size()));
-    report_.blocks_observed += out_.blocks.size();
+    out_.points.resize(sorted.size());
+    out_.scores.resize(in.scores.size());
+    detail::parallelRanges(
+        out_.blocks.size(), options_.threads, [&](std::size_t begin, std::size_t end) {
+          for (std::size_t b = begin; b < end; ++b)
+            for (std::uint32_t i = out_.block_begin[b]; i < out_.block_begin[b + 1]; ++i)
+              placePoint(in, sorted[i].item, out_.blocks[b], i);
+        });
+  }
+
+  /// Makes point `from` of the set the training point `to` of a block.
+  void placePoint(const PointSet& in, std::size_t from, const BlockIndex& block, std::size_t to) {
+    const Eigen::Vector3d voxels = inMap(in.points[from]) / options_.resolution;
+    out_.points[to] = {fromCorner(voxels.x(), block.x), fromCorner(voxels.y(), block.y),
+                       fromCorner(voxels.z(), block.z),
+                       in.labels.empty() ? kFreeClass : in.labels[from]};
+    if (in.scores.empty()) return;
+    const auto classes = static_cast<std::size_t>(options_.number_of_classes);
+    std::copy_n(rowOf(in.scores, from), classes,
+                out_.scores.begin() + static_cast<std::ptrdiff_t>(to * classes));
   }
 
   /// See TrainingPoint.
-  float fromCorner(double voxels, std::int64_t block) const {
+  float fromCorner(double voxels, std::int32_t block) const {
     constexpr double kQuanta = 1 << 17;
-    const double corner = std::ldexp(static_cast<double>(block), out_.block_depth - 1);
+    const double corner = static_cast<double>(block) * (1 << (out_.block_depth - 1));
     return static_cast<float>(std::floor((voxels - corner) * kQuanta + 0.5) / kQuanta);
   }
 
   const float* rowOf(const std::vector<float>& scores, std::size_t row) const {
     return scores.data() + row * static_cast<std::size_t>(options_.number_of_classes);
   }
-  void appendScores(std::vector<float>& out, const float* row) const {
-    out.insert(out.end(), row, row + options_.number_of_classes);
-  }
 
   const Scan& scan_;
   const Options& options_;
   ScanReport& report_;
   Grid grid_;
+  bool origin_is_finite_;
+  bool origin_is_inside_;
+  double reach_;         ///< of a scan along each axis [m]; see kReachCells
+  double longest_beam_;  ///< [m]
   PreparedScan out_;
 };
 

@@ -6,14 +6,21 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
+
+#include "Parallel.h"
+#include "Parts.h"
 
 namespace csom::detail {
 
+/// `Key` is std::uint32_t wherever keys are short enough: half the memory to move.
+template <class Key>
 struct KeyedItem {
-  std::uint64_t key;
+  Key key;
   std::uint32_t item;
 };
 
@@ -21,28 +28,51 @@ inline int bitsFor(std::uint64_t max_value) {
   return max_value == 0 ? 0 : 64 - __builtin_clzll(max_value);
 }
 
+/// One pass of a radix sort: `from` to `to`, ordered by one digit of the keys. Each part of the
+/// items counts its digits; where a part's items of one digit go follows from the counts of all.
+template <class Key>
+void sortByDigit(const std::vector<KeyedItem<Key>>& from, std::vector<KeyedItem<Key>>& to,
+                 int shift, int digit_bits, std::size_t parts, int threads) {
+  const std::size_t buckets = std::size_t{1} << digit_bits;
+  const auto digit = [=](const KeyedItem<Key>& i) { return (i.key >> shift) & (buckets - 1); };
+  std::vector<std::uint32_t> positions(parts * buckets);
+  const auto forEachPart = [&](const auto& work) {
+    parallelRanges(parts, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t part = begin; part < end; ++part)
+        work(positions.data() + part * buckets, from.data() + partBegin(from.size(), part, parts),
+             from.data() + partBegin(from.size(), part + 1, parts));
+    });
+  };
+  forEachPart([&](std::uint32_t* count, const KeyedItem<Key>* item, const KeyedItem<Key>* end) {
+    for (; item != end; ++item) ++count[digit(*item)];
+  });
+  std::uint32_t sum = 0;
+  for (std::size_t bucket = 0; bucket < buckets; ++bucket)
+    for (std::size_t part = 0; part < parts; ++part)
+      sum += std::exchange(positions[part * buckets + bucket], sum);
+  forEachPart([&](std::uint32_t* position, const KeyedItem<Key>* item, const KeyedItem<Key>* end) {
+    for (; item != end; ++item) to[position[digit(*item)]++] = *item;
+  });
+}
+
 /// Sorts by key; items with equal keys stay in order. Keys have at most `bits` significant bits.
-inline void stableSort(std::vector<KeyedItem>& items, int bits) {
-  constexpr int kDigitBits = 11;
-  constexpr std::size_t kBuckets = std::size_t{1} << kDigitBits;
+template <class Key>
+void stableSort(std::vector<KeyedItem<Key>>& items, int bits, int threads = 1) {
+  constexpr int kMostDigitBits = 11;
   if (items.size() < 512) {
-    std::stable_sort(items.begin(), items.end(),
-                     [](const KeyedItem& a, const KeyedItem& b) { return a.key < b.key; });
+    std::stable_sort(
+        items.begin(), items.end(),
+        [](const KeyedItem<Key>& a, const KeyedItem<Key>& b) { return a.key < b.key; });
     return;
   }
-  std::vector<KeyedItem> other(items.size());
-  for (int shift = 0; shift < bits; shift += kDigitBits) {
-    std::array<std::uint32_t, kBuckets> begin{};
-    const auto digit = [shift](const KeyedItem& i) { return (i.key >> shift) & (kBuckets - 1); };
-    for (const KeyedItem& item : items) ++begin[digit(item)];
-    std::uint32_t sum = 0;
-    for (std::uint32_t& count : begin) {
-      const std::uint32_t size = count;
-      count = sum;
-      sum += size;
-    }
-    for (const KeyedItem& item : items) other[begin[digit(item)]++] = item;
+  const std::size_t parts = partsFor(items.size(), threads);
+  const int passes = (bits + kMostDigitBits - 1) / kMostDigitBits;
+  std::vector<KeyedItem<Key>> other(items.size());
+  for (int pass = 0, shift = 0; pass < passes; ++pass) {
+    const int digit_bits = (bits - shift + passes - pass - 1) / (passes - pass);
+    sortByDigit(items, other, shift, digit_bits, parts, threads);
     items.swap(other);
+    shift += digit_bits;
   }
 }
 
@@ -69,10 +99,16 @@ class KeyPacking {
     assert(bits() <= 64);
   }
   int bits() const { return bits_[0] + bits_[1] + bits_[2]; }
+  bool isShort() const { return bits() <= 32; }
 
-  std::uint64_t pack(const Position& p) const {
-    const auto offset = [&](std::size_t a) { return static_cast<std::uint64_t>(p[a] - min_[a]); };
-    return ((offset(2) << bits_[1] | offset(1)) << bits_[0]) | offset(0);
+  template <class Key = std::uint64_t>
+  Key pack(const Position& p) const {
+    const auto offset = [&](std::size_t a) { return static_cast<Key>(p[a] - min_[a]); };
+    // An axis whose bits fill the whole key leaves none to be shifted by.
+    const auto shifted = [](Key key, int bits) {
+      return bits < std::numeric_limits<Key>::digits ? static_cast<Key>(key << bits) : Key{0};
+    };
+    return shifted(shifted(offset(2), bits_[1]) | offset(1), bits_[0]) | offset(0);
   }
   Position unpack(std::uint64_t key) const {
     const auto axis = [](std::uint64_t k, int bits) {
@@ -90,15 +126,30 @@ class KeyPacking {
   std::array<int, 3> bits_{};
 };
 
-/// Calls visit(begin, end) for each run of equal keys.
-template <class Visitor>
-void forEachRun(const std::vector<KeyedItem>& items, Visitor&& visit) {
-  for (std::size_t begin = 0; begin < items.size();) {
+/// Calls work(Key{}) with the type of key that a packing's keys fit into.
+template <class Work>
+auto withKeyOf(const KeyPacking& packing, const Work& work) {
+  return packing.isShort() ? work(std::uint32_t{}) : work(std::uint64_t{});
+}
+
+/// Calls visit(begin, end) for each run of equal keys that begins in [first, last).
+template <class Key, class Visitor>
+void forEachRun(const std::vector<KeyedItem<Key>>& items, std::size_t first, std::size_t last,
+                Visitor&& visit) {
+  std::size_t begin = first;
+  if (begin > 0) {
+    while (begin < last && items[begin].key == items[begin - 1].key) ++begin;
+  }
+  while (begin < last) {
     std::size_t end = begin + 1;
     while (end < items.size() && items[end].key == items[begin].key) ++end;
     visit(begin, end);
     begin = end;
   }
+}
+template <class Key, class Visitor>
+void forEachRun(const std::vector<KeyedItem<Key>>& items, Visitor&& visit) {
+  forEachRun(items, 0, items.size(), visit);
 }
 
 }  // namespace csom::detail

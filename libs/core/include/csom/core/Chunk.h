@@ -81,6 +81,7 @@ class Chunk {
   friend class ChunkBuilder;
   explicit Chunk(std::uint32_t record_size) : record_size_(record_size) {}
 
+  static std::size_t recordBytes(std::size_t voxels, std::size_t entries);
   const Header& header() const { return *static_cast<const Header*>(record()); }
   const std::uint32_t* counts() const {
     return reinterpret_cast<const std::uint32_t*>(&header() + 1);
@@ -119,6 +120,7 @@ class ChunkRef {
 
  private:
   friend class Chunk;
+  friend class ChunkBuilder;
   void acquire() const {
     if (chunk_ != nullptr) chunk_->references_.fetch_add(1, std::memory_order_relaxed);
   }
