@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What docs/architecture.md allows beside each other, for ThreadSanitizer to watch: questions to one
-// map, copies that go their own ways, and the threads of an insertion.
+// What docs/architecture.md allows beside each other, for ThreadSanitizer to watch: questions to
+// one map, copies that go their own ways, and the threads of an insertion.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -54,14 +54,15 @@ std::string answersOf(const SemanticMap& map, const Eigen::Vector3d& point) {
   };
   if (const auto hit = map.castRay({0, 0, 0}, point, 20)) note(hit->voxel, hit->distance);
   if (const auto near = map.nearestOccupied(point, 2)) note(near->voxel, near->distance);
-  if (const auto near = map.nearestOccupied(point, 2, ClassId{3})) note(near->voxel, near->distance);
+  if (const auto near = map.nearestOccupied(point, 2, ClassId{3}))
+    note(near->voxel, near->distance);
   const auto visit = [&](const VoxelIndex& v, const DirichletVoxel& voxel) {
     if (voxel.state() == VoxelState::Occupied) note(v, voxel.entropy());
   };
   const VoxelIndex center = map.grid().voxelAt(point);
-  map.forEachVoxelInBox({{center.x - 2, center.y - 2, center.z - 2},
-                         {center.x + 2, center.y + 2, center.z + 2}},
-                        visit);
+  map.forEachVoxelInBox(
+      {{center.x - 2, center.y - 2, center.z - 2}, {center.x + 2, center.y + 2, center.z + 2}},
+      visit);
   std::size_t known = 0;
   map.forEachVoxel([&](const VoxelIndex&, const DirichletVoxel&) { ++known; });
   note(map.boundingBox()->max, static_cast<double>(known + map.knownVoxelCount()));
