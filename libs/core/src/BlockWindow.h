@@ -57,78 +57,81 @@ class BlockRows {
   std::vector<Row> rows_;
 };
 
-/// A cube of blocks, and where in the scan the points of each begin.
+/// The blocks around a run of chunks along x, and where in the scan the points of each begin.
 class BlockWindow {
  public:
-  /// The cube reaches from `reach` blocks below `chunk_corner` to `reach` blocks beyond the
-  /// `chunk_edge` blocks of the chunk. All but the corner must be the same in every call; going on
-  /// to a chunk with greater x alone is cheapest.
-  void moveTo(const BlockRows& rows, const BlockIndex& chunk_corner, int chunk_edge, int reach) {
-    const bool goes_on = !remaining_.empty() && chunk_corner.y == corner_.y &&
-                         chunk_corner.z == corner_.z && chunk_corner.x > corner_.x;
-    corner_ = chunk_corner;
-    edge_ = chunk_edge + 2 * reach;
+  /// A row of blocks along x that holds points.
+  struct Row {
+    std::size_t offset;  ///< from the row it was asked for; see offsetOf()
+    /// Block x, counted from the window's corner, has the points starts[x] … starts[x+1]−1.
+    const std::uint32_t* starts;
+  };
+
+  /// The run is `length` blocks long and `edge` wide and high; the window reaches `reach` blocks
+  /// beyond it on all sides. `edge` and `reach` must be the same in every call.
+  void moveTo(const BlockRows& rows, const BlockIndex& corner, int length, int edge, int reach) {
     reach_ = reach;
-    if (!goes_on) findRows(rows);
-    for (int z = 0; z < edge_; ++z)
-      for (int y = 0; y < edge_; ++y) fillRow(rows.scan(), y, z);
+    edge_ = edge;
+    around_.resize(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge));
+    for (std::vector<Row>& list : around_) list.clear();
+    const int span = edge + 2 * reach;
+    const auto row_size = static_cast<std::size_t>(length + 2 * reach + 1);
+    starts_.resize(static_cast<std::size_t>(span) * static_cast<std::size_t>(span) * row_size);
+    std::uint32_t* starts = starts_.data();
+    for (int z = -reach; z < edge + reach; ++z) {
+      std::size_t cursor = rows.firstRow(corner.y - reach, corner.z + z);
+      for (int y = -reach; y < edge + reach; ++y) {
+        const BlockRows::Range row = rows.row(corner.y + y, corner.z + z, cursor);
+        if (!fillRow(rows.scan(), row, corner.x - reach, row_size, starts)) continue;
+        announce(y, z, starts + reach);
+        starts += row_size;
+      }
+    }
   }
 
-  /// Whether there is any point in row (y, z) of blocks; see startsAt(). Mostly there is not.
-  const std::uint8_t* observedAt(int y, int z) const {
-    return observed_.data() + rowStride(y + reach_, z + reach_);
+  /// The rows with points at most `reach` from row (y, z) of the run, z-major.
+  const std::vector<Row>& rowsAround(int y, int z) const {
+    return around_[static_cast<std::size_t>(z * edge_ + y)];
   }
-  /// observedAt(a + b) − observedAt(a).
-  std::ptrdiff_t rowStride(int y, int z) const {
-    return static_cast<std::ptrdiff_t>(z) * edge_ + y;
+  /// Number of a row that lies at (y, z) from another.
+  static std::size_t offsetOf(int y, int z, int reach) {
+    return static_cast<std::size_t>((z + reach) * (2 * reach + 1) + (y + reach));
   }
-  /// Block (x, y, z) of the chunk, counted from its lower corner and at most `reach` beyond it, has
-  /// the points starts[0] … starts[1]−1 of the scan, if its row is observed; starts continues along
-  /// x.
-  const std::uint32_t* startsAt(int x, int y, int z) const {
-    return starts_.data() + rowOffset(y + reach_, z + reach_) + (x + reach_);
-  }
-  /// startsAt(a + b) − startsAt(a).
-  std::ptrdiff_t stride(int x, int y, int z) const { return rowOffset(y, z) + x; }
 
  private:
-  std::ptrdiff_t rowOffset(int y, int z) const { return rowStride(y, z) * (edge_ + 1); }
-
-  void findRows(const BlockRows& rows) {
-    const auto edge = static_cast<std::size_t>(edge_);
-    starts_.resize(edge * edge * (edge + 1));
-    observed_.resize(edge * edge);
-    remaining_.clear();
-    for (int z = 0; z < edge_; ++z) {
-      std::size_t cursor = rows.firstRow(corner_.y - reach_, corner_.z + z - reach_);
-      for (int y = 0; y < edge_; ++y)
-        remaining_.push_back(rows.row(corner_.y + y - reach_, corner_.z + z - reach_, cursor));
+  /// Returns false if no block of the row lies in the window.
+  static bool fillRow(const PreparedScan& scan, const BlockRows::Range& row, std::int32_t first_x,
+                      std::size_t row_size, std::uint32_t* starts) {
+    const auto before = [](const BlockIndex& block, std::int32_t x) { return block.x < x; };
+    const auto end = scan.blocks.begin() + static_cast<std::ptrdiff_t>(row.end);
+    auto block = std::lower_bound(scan.blocks.begin() + static_cast<std::ptrdiff_t>(row.begin), end,
+                                  first_x, before);
+    const std::int32_t end_x = first_x + static_cast<std::int32_t>(row_size) - 1;
+    if (block == end || block->x >= end_x) return false;
+    const auto beginOf = [&](auto b) {
+      return scan.block_begin[static_cast<std::size_t>(b - scan.blocks.begin())];
+    };
+    std::size_t x = 0;
+    for (; block != end && block->x < end_x; ++block) {
+      const auto block_x = static_cast<std::size_t>(block->x - first_x);
+      while (x <= block_x) starts[x++] = beginOf(block);
     }
+    while (x < row_size) starts[x++] = beginOf(block);
+    return true;
   }
 
-  void fillRow(const PreparedScan& scan, int y, int z) {
-    const std::int32_t first_x = corner_.x - reach_;
-    BlockRows::Range& row = remaining_[static_cast<std::size_t>(z * edge_ + y)];
-    while (row.begin < row.end && scan.blocks[row.begin].x < first_x) ++row.begin;
-    const bool observed = row.begin < row.end && scan.blocks[row.begin].x < first_x + edge_;
-    observed_[static_cast<std::size_t>(rowStride(y, z))] = observed ? 1 : 0;
-    if (!observed) return;
-    std::uint32_t* const starts = starts_.data() + rowOffset(y, z);
-    int x = 0;
-    std::size_t b = row.begin;
-    for (; b < row.end && scan.blocks[b].x < first_x + edge_; ++b) {
-      const int block_x = scan.blocks[b].x - first_x;
-      while (x <= block_x) starts[x++] = scan.block_begin[b];
-    }
-    while (x <= edge_) starts[x++] = scan.block_begin[b];
+  /// Lists row (y, z) with all rows of the run that it lies around.
+  void announce(int y, int z, const std::uint32_t* starts) {
+    for (int at_z = std::max(0, z - reach_); at_z <= std::min(edge_ - 1, z + reach_); ++at_z)
+      for (int at_y = std::max(0, y - reach_); at_y <= std::min(edge_ - 1, y + reach_); ++at_y)
+        around_[static_cast<std::size_t>(at_z * edge_ + at_y)].push_back(
+            {offsetOf(y - at_y, z - at_z, reach_), starts});
   }
 
-  BlockIndex corner_;
   int edge_ = 0;
   int reach_ = 0;
-  std::vector<BlockRows::Range> remaining_;  ///< of each row, the blocks not yet passed
-  std::vector<std::uint8_t> observed_;       ///< of each row, whether starts_ is filled
   std::vector<std::uint32_t> starts_;
+  std::vector<std::vector<Row>> around_;  ///< of each row of the run, y first
 };
 
 }  // namespace csom::detail

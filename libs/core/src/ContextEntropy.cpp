@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csom/core/ContextEntropy.h>
 
+#include <array>
 #include <cmath>
 
 #include "BlockNeighbours.h"
@@ -25,59 +26,99 @@ double contextEntropy(const BlockContext& context, const Options& options) {
   return 1.0 / (1.0 + std::exp(missing - observed));
 }
 
-std::vector<FilledBlock> filledBlocks(const std::vector<BlockIndex>& observed_blocks,
-                                      const Options& options) {
-  using detail::KeyPacking;
-  constexpr std::uint32_t kKindBits = 2;
-  constexpr std::uint32_t kKindMask = 3;
+namespace {
 
-  KeyPacking packing;
-  for (const BlockIndex& b : observed_blocks) packing.include({b.x, b.y, b.z});
-  packing.finish(1);
-  // Every observed block announces itself to its extended block; what a block hears is its context.
+using detail::KeyPacking;
+
+/// Whether a block of some context is filled. There are few contexts, so each is looked up after
+/// its first time.
+class ContextFilter {
+ public:
+  explicit ContextFilter(const Options& options)
+      : options_(options), verdicts_(kContexts, Verdict::Unknown) {}
+
+  bool fills(const BlockContext& context) {
+    if (!options_.usesContextEntropy()) return true;
+    Verdict& verdict = verdicts_[numberOf(context)];
+    if (verdict == Verdict::Unknown)
+      verdict = contextEntropy(context, options_) < options_.context_threshold ? Verdict::Empty
+                                                                               : Verdict::Filled;
+    return verdict == Verdict::Filled;
+  }
+
+ private:
+  enum class Verdict : std::uint8_t { Unknown, Filled, Empty };
+  static constexpr std::size_t kContexts = 2 * 7 * 13 * 9;
+
+  static std::size_t numberOf(const BlockContext& c) {
+    return static_cast<std::size_t>((((c.observed ? 1 : 0) * 7 + c.faces) * 13 + c.edges) * 9 +
+                                    c.corners);
+  }
+
+  const Options& options_;
+  std::vector<Verdict> verdicts_;
+};
+
+/// Every observed block announces itself to its extended block; what a block hears is its context.
+/// An announcement is the position of the observed block and which kind of neighbour it is.
+constexpr std::uint32_t kKindBits = 2;
+constexpr std::uint32_t kKindMask = 3;
+
+template <class Key>
+std::vector<detail::KeyedItem<Key>> announcements(const std::vector<BlockIndex>& observed_blocks,
+                                                  const KeyPacking& packing,
+                                                  const Options& options) {
   const std::vector<detail::BlockOffset> offsets =
       detail::extendedBlock(options.context_neighbours);
-  std::vector<detail::KeyedItem<std::uint64_t>> heard;
-  heard.reserve(observed_blocks.size() * offsets.size());
-  for (std::size_t i = 0; i < observed_blocks.size(); ++i) {
-    const BlockIndex& b = observed_blocks[i];
-    for (const detail::BlockOffset& d : offsets)
-      heard.push_back(
-          {packing.pack({b.x + d.x, b.y + d.y, b.z + d.z}),
-           static_cast<std::uint32_t>(i) << kKindBits | static_cast<std::uint32_t>(d.kind())});
-  }
-  detail::stableSort(heard, packing.bits());
+  std::vector<detail::KeyedItem<Key>> heard(observed_blocks.size() * offsets.size());
+  detail::parallelRanges(
+      observed_blocks.size(), options.threads, [&](std::size_t begin, std::size_t end) {
+        auto next = heard.begin() + static_cast<std::ptrdiff_t>(begin * offsets.size());
+        for (std::size_t i = begin; i < end; ++i) {
+          const BlockIndex& b = observed_blocks[i];
+          for (const detail::BlockOffset& d : offsets)
+            *next++ = {
+                packing.pack<Key>({b.x + d.x, b.y + d.y, b.z + d.z}),
+                static_cast<std::uint32_t>(i) << kKindBits | static_cast<std::uint32_t>(d.kind())};
+        }
+      });
+  detail::stableSort(heard, packing.bits(), options.threads);
+  return heard;
+}
 
+template <class Key>
+std::vector<FilledBlock> filledBlocks(const std::vector<detail::KeyedItem<Key>>& heard,
+                                      const KeyPacking& packing, const Options& options) {
   std::vector<FilledBlock> filled;
+  ContextFilter filter(options);
   detail::forEachRun(heard, [&](std::size_t begin, std::size_t end) {
-    BlockContext context;
+    std::array<int, 4> kinds{};
     FilledBlock block;
     for (std::size_t i = begin; i < end; ++i) {
-      switch (heard[i].item & kKindMask) {
-        case 0:
-          context.observed = true;
-          block.observed = static_cast<std::int32_t>(heard[i].item >> kKindBits);
-          break;
-        case 1:
-          ++context.faces;
-          break;
-        case 2:
-          ++context.edges;
-          break;
-        default:
-          ++context.corners;
-          break;
-      }
+      const std::uint32_t kind = heard[i].item & kKindMask;
+      ++kinds[kind];
+      if (kind == 0) block.observed = static_cast<std::int32_t>(heard[i].item >> kKindBits);
     }
-    if (options.usesContextEntropy() &&
-        contextEntropy(context, options) < options.context_threshold)
-      return;
+    if (!filter.fills({kinds[0] > 0, kinds[1], kinds[2], kinds[3]})) return;
     const KeyPacking::Position p = packing.unpack(heard[begin].key);
     block.index = {static_cast<std::int32_t>(p[0]), static_cast<std::int32_t>(p[1]),
                    static_cast<std::int32_t>(p[2])};
     filled.push_back(block);
   });
   return filled;
+}
+
+}  // namespace
+
+std::vector<FilledBlock> filledBlocks(const std::vector<BlockIndex>& observed_blocks,
+                                      const Options& options) {
+  KeyPacking packing;
+  for (const BlockIndex& b : observed_blocks) packing.include({b.x, b.y, b.z});
+  packing.finish(1);
+  return detail::withKeyOf(packing, [&](auto key) {
+    return filledBlocks(announcements<decltype(key)>(observed_blocks, packing, options), packing,
+                        options);
+  });
 }
 
 }  // namespace csom

@@ -81,32 +81,38 @@ class Inference {
     filled_ = filledBlocks(scan_.blocks, options_);
     report.blocks_filled += filled_.size();
     const std::vector<ChunkTask> tasks = groupByChunk();
+    const std::vector<std::size_t> runs = runsOf(tasks);
     ScanIncrements out(tasks.size());
     std::atomic<std::size_t> voxels{0};
-    detail::parallelRanges(tasks.size(), options_.threads, [&](std::size_t begin, std::size_t end) {
-      Scratch scratch(options_.number_of_classes);
-      for (std::size_t i = begin; i < end; ++i) {
-        fillChunk(tasks[i], scratch);
-        voxels += scratch.runs.voxelCount();
-        out[i] = {tasks[i].chunk, scratch.runs.take()};
-      }
-    });
+    detail::parallelRanges(
+        runs.size() - 1, options_.threads, [&](std::size_t begin, std::size_t end) {
+          Scratch scratch(options_.number_of_classes);
+          for (std::size_t run = begin; run < end; ++run) {
+            const BlockIndex corner = cornerOf(tasks[runs[run]].chunk);
+            const BlockIndex last = cornerOf(tasks[runs[run + 1] - 1].chunk);
+            scratch.window.moveTo(rows_, corner, last.x - corner.x + blocks_per_chunk_,
+                                  blocks_per_chunk_, reach_);
+            for (std::size_t i = runs[run]; i < runs[run + 1]; ++i) {
+              fillChunk(tasks[i], corner, scratch);
+              voxels += scratch.runs.voxelCount();
+              out[i] = {tasks[i].chunk, scratch.runs.take()};
+            }
+          }
+        });
     report.voxels_updated += voxels;
     return out;
   }
 
  private:
-  /// Blocks next to each other, as offsets into the window's starts from those of a block.
-  struct RowOfBlocks {
-    std::ptrdiff_t row;  ///< the same for the window's rows
-    std::ptrdiff_t first;
-    std::ptrdiff_t last;
-  };
+  /// By how many blocks along x, on both sides, each row around a block matters to it; −1 if it
+  /// does not. See BlockWindow::offsetOf().
+  using HalfWidths = std::vector<int>;
+
   /// What a thread needs while it works.
   struct Scratch {
     explicit Scratch(int classes) : sums(classes), class_mass(static_cast<std::size_t>(classes)) {}
     detail::BlockWindow window;
-    std::vector<std::vector<RowOfBlocks>> rows;  ///< around any block; see rowsWithin()
+    std::vector<HalfWidths> half_widths;  ///< see halfWidthsWithin()
     std::vector<detail::PointRange> ranges;
     std::vector<std::uint32_t> selected;
     detail::LaneSums sums;
@@ -132,18 +138,10 @@ class Inference {
     const auto chunkOfBlock = [shift](const BlockIndex& b) {
       return ChunkIndex{b.x >> shift, b.y >> shift, b.z >> shift};
     };
-    detail::KeyPacking packing;
-    for (const FilledBlock& block : filled_) {
-      const ChunkIndex c = chunkOfBlock(block.index);
-      packing.include({c.x, c.y, c.z});
-    }
-    packing.finish();
-    std::vector<detail::KeyedItem<std::uint64_t>> sorted(filled_.size());
-    for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const auto sorted = detail::sortedByPosition(filled_.size(), [&](std::size_t i) {
       const ChunkIndex c = chunkOfBlock(filled_[i].index);
-      sorted[i] = {packing.pack({c.x, c.y, c.z}), static_cast<std::uint32_t>(i)};
-    }
-    detail::stableSort(sorted, packing.bits());
+      return detail::KeyPacking::Position{c.x, c.y, c.z};
+    });
     std::vector<FilledBlock> by_chunk;
     by_chunk.reserve(filled_.size());
     std::vector<ChunkTask> tasks;
@@ -155,14 +153,30 @@ class Inference {
     return tasks;
   }
 
-  void fillChunk(const ChunkTask& task, Scratch& scratch) const {
-    const BlockIndex corner{task.chunk.x * blocks_per_chunk_, task.chunk.y * blocks_per_chunk_,
-                            task.chunk.z * blocks_per_chunk_};
-    scratch.window.moveTo(rows_, corner, blocks_per_chunk_, reach_);
+  /// Chunks close to each other along x share a window: tasks runs[i] … runs[i+1]−1.
+  static std::vector<std::size_t> runsOf(const std::vector<ChunkTask>& tasks) {
+    constexpr std::int32_t kLargestStep = 2;
+    std::vector<std::size_t> runs;
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      const ChunkIndex& chunk = tasks[i].chunk;
+      const ChunkIndex& before = tasks[i > 0 ? i - 1 : 0].chunk;
+      if (i == 0 || chunk.y != before.y || chunk.z != before.z || chunk.x - before.x > kLargestStep)
+        runs.push_back(i);
+    }
+    runs.push_back(tasks.size());
+    return runs;
+  }
+
+  BlockIndex cornerOf(const ChunkIndex& chunk) const {
+    return {chunk.x * blocks_per_chunk_, chunk.y * blocks_per_chunk_, chunk.z * blocks_per_chunk_};
+  }
+
+  /// `corner` is that of the window.
+  void fillChunk(const ChunkTask& task, const BlockIndex& corner, Scratch& scratch) const {
     for (std::size_t i = task.begin; i < task.end; ++i) {
       const FilledBlock& block = filled_[i];
-      const BlockIndex in_chunk{block.index.x - corner.x, block.index.y - corner.y,
-                                block.index.z - corner.z};
+      const BlockIndex in_window{block.index.x - corner.x, block.index.y - corner.y,
+                                 block.index.z - corner.z};
       const int depth_bits = scan_.block_depth - 1;
       const detail::BlockPlace place{detail::fixedPoint(block.index.x) << depth_bits,
                                      detail::fixedPoint(block.index.y) << depth_bits,
@@ -170,7 +184,7 @@ class Inference {
                                      detail::fixedPoint(block_side_)};
       const float entropy = classEntropyOf(block, scratch.class_mass);
       const float length = inVoxels(kernelLength(entropy, options_));
-      findNeighbourhood(in_chunk, entropy, length, scratch);
+      findNeighbourhood(in_window, entropy, length, scratch);
       detail::selectNearby(points_, scratch.ranges, place, length, scratch.selected);
       for (const LaneGroup& group : groups_) {
         scratch.sums.reset();
@@ -197,55 +211,62 @@ class Inference {
     return classEntropy(class_mass);
   }
 
-  /// The ranges of points that may matter to a block of the chunk, z-major by block.
+  /// The ranges of points that may matter to a block of the window, z-major by block.
   void findNeighbourhood(const BlockIndex& block, float entropy, float length,
                          Scratch& scratch) const {
-    const std::vector<RowOfBlocks>& rows = options_.neighbourhood == Neighbourhood::Radius
-                                               ? rowsWithin(length, scratch)
-                                               : rowsOfExtendedBlock(entropy, scratch);
+    const HalfWidths& half_widths = options_.neighbourhood == Neighbourhood::Radius
+                                        ? halfWidthsWithin(length, scratch)
+                                        : halfWidthsOfExtendedBlock(entropy, scratch);
     scratch.ranges.clear();
-    const std::uint32_t* const here = scratch.window.startsAt(block.x, block.y, block.z);
-    const std::uint8_t* const observed = scratch.window.observedAt(block.y, block.z);
-    for (const RowOfBlocks& row : rows) {
-      if (observed[row.row] == 0) continue;
-      const std::uint32_t begin = here[row.first];
-      const std::uint32_t end = here[row.last + 1];
+    for (const detail::BlockWindow::Row& row : scratch.window.rowsAround(block.y, block.z)) {
+      const int half_width = half_widths[row.offset];
+      if (half_width < 0) continue;
+      const std::uint32_t begin = row.starts[block.x - half_width];
+      const std::uint32_t end = row.starts[block.x + half_width + 1];
       if (begin < end) scratch.ranges.push_back({begin, end});
     }
   }
 
-  /// Rows of blocks that may hold a point nearer than `length` to a voxel centre. Lengths share
-  /// their rows by quarters of a voxel, rounded up: points too far are sorted out later.
-  const std::vector<RowOfBlocks>& rowsWithin(float length, Scratch& scratch) const {
+  template <class HalfWidthOf>
+  HalfWidths halfWidths(HalfWidthOf&& halfWidthOf) const {
+    HalfWidths out;
+    for (int z = -reach_; z <= reach_; ++z)
+      for (int y = -reach_; y <= reach_; ++y) out.push_back(halfWidthOf(y, z));
+    return out;
+  }
+
+  /// Blocks that may hold a point nearer than `length` to a voxel centre. Lengths share their
+  /// widths by quarters of a voxel, rounded up: points too far are sorted out later.
+  const HalfWidths& halfWidthsWithin(float length, Scratch& scratch) const {
     constexpr float kSteps = 4;
     const auto step = static_cast<std::size_t>(std::ceil(length * kSteps));
-    if (scratch.rows.size() <= step) scratch.rows.resize(step + 1);
-    std::vector<RowOfBlocks>& rows = scratch.rows[step];
-    if (!rows.empty()) return rows;
+    if (scratch.half_widths.size() <= step) scratch.half_widths.resize(step + 1);
+    HalfWidths& found = scratch.half_widths[step];
+    if (!found.empty()) return found;
     const float longest = static_cast<float>(step) / kSteps;
     const float limit = longest * longest;
-    for (int z = -reach_; z <= reach_; ++z)
-      for (int y = -reach_; y <= reach_; ++y) {
-        int x = -1;
-        while (x < reach_ && gapSquared(x + 1) + gapSquared(y) + gapSquared(z) < limit) ++x;
-        if (x >= 0)
-          rows.push_back({scratch.window.rowStride(y, z), scratch.window.stride(-x, y, z),
-                          scratch.window.stride(x, y, z)});
-      }
-    return rows;
+    found = halfWidths([&](int y, int z) {
+      int x = -1;
+      while (x < reach_ && gapSquared(x + 1) + gapSquared(y) + gapSquared(z) < limit) ++x;
+      return x;
+    });
+    return found;
   }
 
   /// The block alone, or with the neighbours of its extended block.
-  const std::vector<RowOfBlocks>& rowsOfExtendedBlock(float entropy, Scratch& scratch) const {
-    scratch.rows.resize(2);
+  const HalfWidths& halfWidthsOfExtendedBlock(float entropy, Scratch& scratch) const {
+    scratch.half_widths.resize(2);
     const bool alone = entropy <= kPureBlockEntropy;
-    std::vector<RowOfBlocks>& rows = scratch.rows[alone ? 0 : 1];
-    if (!rows.empty()) return rows;
-    for (const detail::BlockOffset& d : neighbours_) {
-      const std::ptrdiff_t at = scratch.window.stride(d.x, d.y, d.z);
-      if (!alone || d.kind() == 0) rows.push_back({scratch.window.rowStride(d.y, d.z), at, at});
-    }
-    return rows;
+    HalfWidths& found = scratch.half_widths[alone ? 0 : 1];
+    if (!found.empty()) return found;
+    found = halfWidths([&](int y, int z) {
+      int x = -1;
+      for (const detail::BlockOffset& d : neighbours_) {
+        if (d.y == y && d.z == z && (!alone || d.kind() == 0)) x = std::max(x, d.x);
+      }
+      return x;
+    });
+    return found;
   }
 
   /// Square of the least distance along one axis from a voxel centre of a block to a block so many
@@ -289,19 +310,10 @@ class Inference {
 /// s-csm: each observed voxel receives the class mass of its own points.
 ScanIncrements countPoints(const PreparedScan& scan, const Options& options, ScanReport& report) {
   const auto classes = static_cast<std::size_t>(options.number_of_classes);
-  detail::KeyPacking packing;
-  for (const BlockIndex& voxel : scan.blocks) {
-    packing.include({chunkOf(voxel.x), chunkOf(voxel.y), chunkOf(voxel.z)});
-  }
-  packing.finish();
-  std::vector<detail::KeyedItem<std::uint64_t>> sorted;
-  sorted.reserve(scan.blocks.size());
-  for (std::size_t b = 0; b < scan.blocks.size(); ++b) {
+  const auto sorted = detail::sortedByPosition(scan.blocks.size(), [&](std::size_t b) {
     const BlockIndex& voxel = scan.blocks[b];
-    sorted.push_back({packing.pack({chunkOf(voxel.x), chunkOf(voxel.y), chunkOf(voxel.z)}),
-                      static_cast<std::uint32_t>(b)});
-  }
-  detail::stableSort(sorted, packing.bits());
+    return detail::KeyPacking::Position{chunkOf(voxel.x), chunkOf(voxel.y), chunkOf(voxel.z)};
+  });
 
   ScanIncrements out;
   detail::VoxelRuns runs;

@@ -96,9 +96,10 @@ std::size_t select(const PointColumns& points, const std::vector<PointRange>& ra
       const Lanes dz = distanceBeyond(load(points.z.data() + first), block.z + middle, half);
       const Lanes squared = dx * dx + dy * dy + dz * dz;
       const auto count = std::min<std::uint32_t>(kLanes, range.last - first);
+      const IntLanes near = squared < limit;
       for (std::uint32_t lane = 0; lane < count; ++lane) {
         selected[size] = first + lane;
-        size += squared[lane] < limit ? 1 : 0;
+        size += near[lane] != 0 ? 1 : 0;
       }
     }
   }

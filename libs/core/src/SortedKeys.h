@@ -132,6 +132,19 @@ auto withKeyOf(const KeyPacking& packing, const Work& work) {
   return packing.isShort() ? work(std::uint32_t{}) : work(std::uint64_t{});
 }
 
+/// Items 0 … size−1 in z-major order of positionOf(item).
+template <class PositionOf>
+std::vector<KeyedItem<std::uint64_t>> sortedByPosition(std::size_t size, PositionOf&& positionOf) {
+  KeyPacking packing;
+  for (std::size_t i = 0; i < size; ++i) packing.include(positionOf(i));
+  packing.finish();
+  std::vector<KeyedItem<std::uint64_t>> items(size);
+  for (std::size_t i = 0; i < size; ++i)
+    items[i] = {packing.pack(positionOf(i)), static_cast<std::uint32_t>(i)};
+  stableSort(items, packing.bits());
+  return items;
+}
+
 /// Calls visit(begin, end) for each run of equal keys that begins in [first, last).
 template <class Key, class Visitor>
 void forEachRun(const std::vector<KeyedItem<Key>>& items, std::size_t first, std::size_t last,
