@@ -118,6 +118,8 @@ RunRecord recordOf(const MappingRequest& request, const MappingResult& result, d
     record.refused.push_back({what.first, what.second, count});
   if (const auto cameras = result.map->cameraStatistics())
     record.camera_labels = cameraLabelsOf(*cameras);
+  if (const auto& done = result.deskew)
+    record.deskew = DeskewCounts{done->deskewed, done->not_needed, done->not_possible};
   if (const auto& done = result.registration)
     record.registration = RegistrationRecord{done->scans, done->doubtful, done->seconds};
   record.pictures = picturesOf(result);

@@ -14,6 +14,8 @@ void addInfoCommand(CLI::App& program);
 void addQueryCommand(CLI::App& program);
 void addMergeCommand(CLI::App& program);
 void addEvalCommand(CLI::App& program);
+/// Below `csom eval`.
+void addEvalCameraCommand(CLI::App& eval);
 void addExportCommand(CLI::App& program);
 
 }  // namespace csom

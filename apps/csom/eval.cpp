@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// csom eval: how well a map agrees with the truth.
+// csom eval: how well a map, or what makes one, agrees with the truth.
 #include <csom/core/Error.h>
 #include <csom/eval/VoxelScore.h>
 #include <csom/io/MapFile.h>
@@ -90,7 +90,7 @@ void runEvalVoxels(const EvalArguments& arguments) {
 }  // namespace
 
 void addEvalCommand(CLI::App& program) {
-  CLI::App* eval = program.add_subcommand("eval", "Score a map against the truth");
+  CLI::App* eval = program.add_subcommand("eval", "Score a map, or labels from a camera, against the truth");
   eval->require_subcommand(1);
   auto arguments = std::make_shared<EvalArguments>();
   CLI::App* voxels = eval->add_subcommand("voxels", "Voxel by voxel, against a map of the truth");
@@ -109,6 +109,7 @@ void addEvalCommand(CLI::App& program) {
       "  csom map room.rawlog -c config/room.ini -o out\n"
       "  csom eval voxels --map out/map.csom --truth truth.csom");
   voxels->callback([arguments] { runEvalVoxels(*arguments); });
+  addEvalCameraCommand(*eval);
 }
 
 }  // namespace csom

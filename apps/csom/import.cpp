@@ -92,10 +92,10 @@ void addKittiRaw(CLI::App& import_command) {
   command->add_option("--calib", arguments->request.calibration,
                       "Folder of calib_*.txt (default: DIR/calib, DIR, or a folder above it)");
   command->add_flag("--embed-images", arguments->request.embed_images,
-                    "Images into the rawlog, as JPEG, instead of files beside it");
+                    "Images into the rawlog, without loss, instead of files beside it");
   addCommonOptions(*command, *arguments);
   command->footer(
-      "The data set has no poses: give csom map a trajectory with --poses.\n"
+      "The data set has no poses: give csom map --poses icp, or a trajectory.\n"
       "Example:\n"
       "  csom import kitti-raw 2011_09_26_drive_0001_sync --scans 0:50 -o raw.rawlog");
   command->callback([arguments] {

@@ -34,6 +34,7 @@ struct MapArguments {
   std::optional<int> threads;
   std::string label_cache;
   std::string simplemap;
+  bool no_deskew = false;
   bool no_html = false;
   bool json = false;
 };
@@ -45,6 +46,7 @@ MappingRequest requestOf(const MapArguments& arguments) {
   if (!arguments.poses.empty()) request.poses = PoseChoice::parse(arguments.poses);
   request.threads = arguments.threads;
   if (!arguments.label_cache.empty()) request.label_cache = arguments.label_cache;
+  request.deskew = !arguments.no_deskew;
   request.keep_key_frames = !arguments.simplemap.empty();
   return request;
 }
@@ -161,6 +163,9 @@ void addMapCommand(CLI::App& program) {
   command->add_option("--write-simplemap", arguments->simplemap,
                       "Also write the observations with their poses as a simplemap, of which "
                       "observations2map makes the same map");
+  command->add_flag("--no-deskew", arguments->no_deskew,
+                    "Take Velodyne scans as they are, although the robot moves while the sensor "
+                    "turns");
   command->add_flag("--no-html", arguments->no_html, "Write no report.html");
   command->add_flag("--json", arguments->json, "Print the run record as JSON instead of a summary");
   command->footer(

@@ -210,8 +210,16 @@ std::uint32_t gpsTime(const CObservationVelodyneScan::TVelodyneRawPacket& packet
   return time;
 }
 
-TEST_F(SimulationTest, PacketTimesFollowTheRotation) {
+TEST_F(SimulationTest, PacketsOfAnInstantaneousTurnHaveOneTime) {
   simulateRawlog(yard(kStanding, lidar()), path("x.rawlog"));
+  for (const auto& scan : all<CObservationVelodyneScan>(load(path("x.rawlog")))) {
+    for (const auto& packet : scan->scan_packets)
+      EXPECT_EQ(gpsTime(packet), gpsTime(scan->scan_packets.front()));
+  }
+}
+
+TEST_F(SimulationTest, PacketTimesFollowTheRotation) {
+  simulateRawlog(yard(kStanding, lidar(", sweep: moving")), path("x.rawlog"));
   const auto scans = all<CObservationVelodyneScan>(load(path("x.rawlog")));
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const auto& packets = scans[i]->scan_packets;

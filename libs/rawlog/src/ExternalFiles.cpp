@@ -8,6 +8,9 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationStereoImages.h>
 
+#include <algorithm>
+#include <filesystem>
+
 namespace csom::detail {
 namespace {
 
@@ -23,6 +26,16 @@ void addRangeScan(std::vector<std::string>& files, const mrpt::obs::CObservation
     files.push_back(scan.rangeImage_getExternalStorageFileAbsolutePath(""));
   if (scan.hasIntensityImage) addImage(files, scan.intensityImage);
   if (scan.hasConfidenceImage) addImage(files, scan.confidenceImage);
+}
+
+/// All images of an observation that may be externalised.
+std::vector<mrpt::img::CImage*> imagesOf(mrpt::obs::CObservation& observation) {
+  if (auto* mono = dynamic_cast<mrpt::obs::CObservationImage*>(&observation)) return {&mono->image};
+  if (auto* pair = dynamic_cast<mrpt::obs::CObservationStereoImages*>(&observation))
+    return {&pair->imageLeft, &pair->imageRight, &pair->imageDisparity};
+  if (auto* scan = dynamic_cast<mrpt::obs::CObservation3DRangeScan*>(&observation))
+    return {&scan->intensityImage, &scan->confidenceImage};
+  return {};
 }
 
 }  // namespace
@@ -45,6 +58,22 @@ std::vector<std::string> externalFilesOf(const mrpt::obs::CObservation& observat
       files.push_back(mrpt::io::lazy_load_absolute_path(cloud->getExternalStorageFile()));
   }
   return files;
+}
+
+mrpt::obs::CObservation::Ptr withAbsoluteImagePaths(
+    const mrpt::obs::CObservation::Ptr& observation) {
+  const auto in_file = [](const mrpt::img::CImage* image) { return image->isExternallyStored(); };
+  const std::vector<mrpt::img::CImage*> images = imagesOf(*observation);
+  if (std::none_of(images.begin(), images.end(), in_file)) return observation;
+  const auto copy =
+      std::dynamic_pointer_cast<mrpt::obs::CObservation>(observation->duplicateGetSmartPtr());
+  for (mrpt::img::CImage* image : imagesOf(*copy)) {
+    if (!image->isExternallyStored()) continue;
+    const std::string file = mrpt::io::lazy_load_absolute_path(image->getExternalStorageFile());
+    image->setExternalStorage(std::filesystem::absolute(file).lexically_normal().string());
+    image->unload();
+  }
+  return copy;
 }
 
 }  // namespace csom::detail

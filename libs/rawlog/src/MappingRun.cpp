@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "EigenPose.h"
+#include "ExternalFiles.h"
 #include "MrptText.h"
 #include "PosedLog.h"
 
@@ -88,6 +89,7 @@ class MappingRun {
 
   MappingResult run() {
     result_.map = emptyMap(request_);
+    if (request_.deskew) result_.deskew.emplace();
     result_.map->setLabelledScanObserver([this](const LabelledScan& scan) { keepSeen(scan); });
     // All that can be wrong with the input is found out before the long part starts.
     std::vector<PoseSource> poses;
@@ -152,15 +154,14 @@ RawlogSurvey MappingRun::survey(const std::string& log) {
     warn(log + ": left out " + counted(found.invalid_poses, "poses") +
          " that are not finite or have no time stamp");
   if (request_.keep_key_frames && found.external_files > 0)
-    warn(log +
-         ": its images are files of their own; the simplemap refers to them and finds them "
-         "only if they are in a folder Images beside it");
+    warn(log + ": " + counted(found.external_files, "of its images or clouds") +
+         " are files of their own; the simplemap refers to where they are now");
   return found;
 }
 
 void MappingRun::mapLog(const RawlogSurvey& survey, PoseSource& poses) {
   {
-    detail::PosedLog log(survey, poses);
+    detail::PosedLog log(survey, poses, request_.deskew);
     ReadAhead<detail::PosedEntry> entries(kEntriesAhead, [&log] { return log.next(); });
     while (const auto entry = entries.next()) {
       mapEntry(*entry);
@@ -175,7 +176,8 @@ void MappingRun::mapLog(const RawlogSurvey& survey, PoseSource& poses) {
 
 void MappingRun::mapEntry(const detail::PosedEntry& entry) {
   open_frame_.reset();
-  for (const auto& [observation, pose] : entry) {
+  if (result_.deskew) *result_.deskew += entry.deskew;
+  for (const auto& [observation, pose] : entry.observations) {
     ++result_.observations_read;
     if (!pose) {
       refuse(*observation, "no pose at its time");
@@ -247,7 +249,7 @@ void MappingRun::keep(const mrpt::obs::CObservation::Ptr& observation, const CPo
         std::make_shared<mrpt::poses::CPose3DPDFGaussian>(pose);
     result_.key_frames.insert(exact, open_frame_);
   }
-  open_frame_->insert(observation);
+  open_frame_->insert(detail::withAbsoluteImagePaths(observation));
 }
 
 void MappingRun::warnAboutPoints() {
@@ -274,6 +276,10 @@ void MappingRun::warnAboutPoints() {
 }
 
 void MappingRun::finish() {
+  if (result_.deskew && result_.deskew->not_possible > 0)
+    warn(counted(result_.deskew->not_possible, "scans") +
+         " are in the map as if the robot had stood still while they were taken: the poses do not "
+         "span the time of their packets");
   if (up_.norm() > 0) result_.up = up_.normalized();
   warnAboutPoints();
   for (const auto& [what, count] : result_.refused) {

@@ -3,6 +3,7 @@
 #include <csom/core/Error.h>
 #include <csom/io/TextParser.h>
 #include <csom/io/TrajectoryFile.h>
+#include <csom/rawlog/Deskew.h>
 #include <csom/rawlog/PoseSource.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
@@ -176,8 +177,9 @@ void PoseSource::advance(const RawlogEntry& entry) {
 bool PoseSource::knows(const RawlogEntry& entry) const {
   if (!scans_) return true;
   for (const auto& observation : entry.observations) {
-    const auto time = detail::secondsOf(observation->timestamp);
-    if (time && !track_.reaches(*time)) return false;
+    auto last_time = sweepEnd(*observation);
+    if (!last_time) last_time = detail::secondsOf(observation->timestamp);
+    if (last_time && !track_.reaches(*last_time)) return false;
   }
   return true;
 }

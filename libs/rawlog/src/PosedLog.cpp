@@ -17,10 +17,11 @@ bool tellsPose(const mrpt::obs::CObservation& observation) {
 
 }  // namespace
 
-PosedLog::PosedLog(const RawlogSurvey& survey, PoseSource& poses)
+PosedLog::PosedLog(const RawlogSurvey& survey, PoseSource& poses, bool deskew)
     : reader_(survey.file, RawlogReader::Soundness::Known),
       unread_(survey.end.entries),
-      poses_(poses) {}
+      poses_(poses),
+      deskew_(deskew) {}
 
 std::optional<PosedEntry> PosedLog::next() {
   while (waiting_.empty() || (waiting_.size() <= kMostWaiting && !poses_.knows(waiting_.front()))) {
@@ -45,9 +46,22 @@ bool PosedLog::readOne() {
 PosedEntry PosedLog::posed(const RawlogEntry& entry) {
   PosedEntry out;
   for (const auto& observation : entry.observations) {
-    if (!tellsPose(*observation)) out.push_back({observation, poses_.poseOf(entry, *observation)});
+    if (tellsPose(*observation)) continue;
+    const auto pose = poses_.poseOf(entry, *observation);
+    out.observations.push_back(
+        {pose && deskew_ ? withoutMotion(observation, out.deskew) : observation, pose});
   }
   return out;
+}
+
+mrpt::obs::CObservation::Ptr PosedLog::withoutMotion(
+    const mrpt::obs::CObservation::Ptr& observation, DeskewStatistics& statistics) const {
+  const auto* scan = dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(observation.get());
+  if (scan == nullptr) return observation;
+  const auto moved = deskewed(
+      *scan, [this](double time) { return poses_.at(time); }, statistics);
+  if (!moved) return observation;
+  return moved;
 }
 
 }  // namespace csom::detail

@@ -2,6 +2,7 @@
 // A log whose observations have poses.
 #pragma once
 
+#include <csom/rawlog/Deskew.h>
 #include <csom/rawlog/PoseSource.h>
 #include <csom/rawlog/RawlogReader.h>
 #include <csom/rawlog/RawlogSurvey.h>
@@ -19,17 +20,19 @@ struct PosedObservation {
   std::optional<mrpt::poses::CPose3D> pose;  ///< of the robot; nothing: there is none at its time
 };
 
-/// The observations of an entry that say something of the world: those that only tell poses are
-/// left out.
-using PosedEntry = std::vector<PosedObservation>;
+struct PosedEntry {
+  /// Those that say something of the world: what only tells poses is left out.
+  std::vector<PosedObservation> observations;
+  DeskewStatistics deskew;
+};
 
 /// Reads a log that has been surveyed, up to where it is sound. An entry is handed out when its
 /// poses are known, or kMostWaiting entries later: a time stamp far ahead of all scans must not
 /// collect the rest of the log in memory.
 class PosedLog {
  public:
-  /// `poses` must outlive this.
-  PosedLog(const RawlogSurvey& survey, PoseSource& poses);
+  /// `deskew`: take the robot's motion out of scans. `poses` must outlive this.
+  PosedLog(const RawlogSurvey& survey, PoseSource& poses, bool deskew);
 
   std::optional<PosedEntry> next();
 
@@ -38,10 +41,13 @@ class PosedLog {
 
   bool readOne();
   PosedEntry posed(const RawlogEntry& entry);
+  mrpt::obs::CObservation::Ptr withoutMotion(const mrpt::obs::CObservation::Ptr& observation,
+                                             DeskewStatistics& statistics) const;
 
   RawlogReader reader_;
   std::size_t unread_;
   PoseSource& poses_;
+  bool deskew_;
   std::deque<RawlogEntry> waiting_;
 };
 

@@ -3,6 +3,7 @@
 #include "RegisteredScans.h"
 
 #include <csom/maps/PointExtractor.h>
+#include <csom/rawlog/Deskew.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRotatingScan.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
@@ -48,7 +49,7 @@ void RegisteredScans::add(const mrpt::obs::CObservation& observation, PoseTrack&
   const auto time = secondsOf(observation.timestamp);
   if (!time) return;
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<Eigen::Vector3f> points = pointsOnRobot(observation);
+  const std::vector<Eigen::Vector3f> points = pointsOnRobot(*withoutMotion(observation, *time));
   if (points.empty()) return;
   ++report_.scans;
   if (last_time_ && *time <= *last_time_) {
@@ -61,6 +62,23 @@ void RegisteredScans::add(const mrpt::obs::CObservation& observation, PoseTrack&
   if (!result.doubt.empty()) noteDoubt(*time, result.doubt);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   report_.seconds += elapsed.count();
+}
+
+/// The motion of the turn at hand is not known yet: it is taken to go on as before.
+RegisteredScans::Scan RegisteredScans::withoutMotion(const mrpt::obs::CObservation& observation,
+                                                     double time) const {
+  const Scan as_it_is(Scan(), &observation);
+  const auto* scan = dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(&observation);
+  if (scan == nullptr || !last_time_) return as_it_is;
+  DeskewStatistics not_of_interest;
+  const auto moved = deskewed(
+      *scan,
+      [&](double at) -> std::optional<mrpt::poses::CPose3D> {
+        return registration_.predictedMotion(at - time);
+      },
+      not_of_interest);
+  if (!moved) return as_it_is;
+  return moved;
 }
 
 void RegisteredScans::noteDoubt(double time, const std::string& doubt) {

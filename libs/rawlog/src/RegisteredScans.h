@@ -6,6 +6,7 @@
 #include <csom/rawlog/ScanRegistration.h>
 #include <mrpt/obs/CObservation.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,9 @@ class RegisteredScans {
   const RegistrationReport& report() const { return report_; }
 
  private:
+  using Scan = std::shared_ptr<const mrpt::obs::CObservation>;
+
+  Scan withoutMotion(const mrpt::obs::CObservation& observation, double time) const;
   void noteDoubt(double time, const std::string& doubt);
 
   std::string sensor_label_;

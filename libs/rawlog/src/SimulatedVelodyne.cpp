@@ -98,7 +98,9 @@ Packet Turn::packet(int index) {
     for (int firing = 0; firing < kFiringsPerBlock; ++firing)
       writeFiring(block_of_turn, firing, at + 4 + firing * kLasers * kReturnBytes);
   }
-  const double start = moment_.time + index * kBlocks * kFiringsPerBlock * kFiringPeriod;
+  const bool moving = model_.sweep == VelodyneModel::Sweep::Moving;
+  const double delay = moving ? index * kBlocks * kFiringsPerBlock * kFiringPeriod : 0;
+  const double start = moment_.time + delay;
   const auto microseconds = static_cast<std::uint64_t>(std::llround(start * 1e6));
   unsigned char* status = bytes.data() + kBlocks * kBlockBytes;
   putU32(status, static_cast<std::uint32_t>(microseconds % kMicrosecondsPerHour));

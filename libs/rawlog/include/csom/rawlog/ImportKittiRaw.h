@@ -16,7 +16,7 @@ struct KittiRawImport {
   /// or the folder above it. Only needed if there are images.
   std::string calibration;
   ScanSelection selection;
-  bool embed_images = false;  ///< into the rawlog (as JPEG) instead of copies in RAWLOG_Images/
+  bool embed_images = false;  ///< into the rawlog (without loss) instead of copies in RAWLOG_Images/
 };
 
 /// Writes, for each frame, the images (CObservationImage, labels "image_00" …, rectified pinhole

@@ -4,6 +4,7 @@
 
 #include <csom/io/TrajectoryFile.h>
 #include <csom/maps/CSemanticContinuousMap.h>
+#include <csom/rawlog/Deskew.h>
 #include <csom/rawlog/PoseSource.h>
 #include <csom/rawlog/RawlogReader.h>
 #include <mrpt/maps/CSimpleMap.h>
@@ -25,6 +26,7 @@ struct MappingRequest {
   std::optional<PoseChoice> poses;         ///< nothing: the best that each log holds
   std::optional<int> threads;              ///< overrides the option of the ini
   std::optional<std::string> label_cache;  ///< folder, overrides the option of the ini
+  bool deskew = true;                      ///< take the robot's motion out of Velodyne scans
   bool keep_key_frames = false;  ///< fill MappingResult::key_frames, which holds all in memory
 };
 
@@ -55,6 +57,7 @@ struct MappingResult {
   std::optional<LabelledScan> first_labelled;
   std::optional<LabelledScan> middle_labelled;
   std::optional<LabelledScan> last_labelled;
+  std::optional<DeskewStatistics> deskew;          ///< nothing if it was not asked for
   std::optional<RegistrationReport> registration;  ///< nothing if the poses were given
   std::vector<TimedPose> trajectory;               ///< the registered poses, by time
   std::vector<std::string> warnings;               ///< one line each

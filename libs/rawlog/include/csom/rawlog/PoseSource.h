@@ -72,7 +72,11 @@ class PoseSource {
   std::optional<mrpt::poses::CPose3D> poseOf(const RawlogEntry& entry,
                                              const mrpt::obs::CObservation& observation);
 
-  /// The registered poses and what became of the scans; nothing with other poses.
+  /// The robot at a time [s since 1970]; nothing outside of the poses, or if they have no times:
+  /// sums of actions, lines of a KITTI file, poses of key frames.
+  std::optional<mrpt::poses::CPose3D> at(double time) const { return track_.at(time); }
+
+  /// What became of the scans that were registered; nothing with other poses.
   std::optional<RegistrationReport> registration() const;
   const PoseTrack& track() const { return track_; }
 

@@ -33,7 +33,7 @@ struct PointLabellingOptions {
   /// Reject points that something nearer hides from the camera.
   bool visibility = true;
   /// A point is only hidden by what is nearer to the camera by more than this [m].
-  double visibility_margin = 0.7;
+  double visibility_margin = 0.8;
   /// Labels may bleed so many pixels over jumps of the depth (see pointsAtEdges()); points whose
   /// label may have are rejected. 0 keeps them all.
   double edge_margin = 2;
