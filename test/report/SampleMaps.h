@@ -91,7 +91,7 @@ inline CameraLabels sampleCameraLabels() {
   labels.points.low_confidence = 250;
   labels.points.ignored = 200;
   labels.points.unknown = 50;
-  labels.seconds = {10, 0.5, 1.5, 0.25};
+  labels.seconds = {10, 0.5, 1.5};
   return labels;
 }
 

@@ -1,115 +1,154 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <csom/core/DirichletVoxel.h>
 #include <csom/core/FreeSpaceRays.h>
 
 #include <array>
 #include <cstddef>
-#include <mutex>
-#include <unordered_map>
+#include <limits>
 #include <utility>
+#include <vector>
 
+#include "Lanes.h"
 #include "Parallel.h"
+#include "Parts.h"
+#include "VoxelBits.h"
 #include "VoxelRuns.h"
-#include "VoxelTraversal.h"
 
 namespace csom {
 
 namespace {
 
-/// A set of voxels: a bit each, by chunk.
-class VoxelSet {
- public:
-  using Bits = std::array<std::uint64_t, kVoxelsPerChunk / 64>;
+using detail::VoxelBits;
+using detail::VoxelCode;
 
-  void insert(const VoxelIndex& voxel) {
-    Bits& bits = of(chunkOf(voxel));
-    bits[wordOf(voxel)] |= bitOf(voxel);
-  }
-  void erase(const VoxelIndex& voxel) {
-    const auto found = chunks_.find(chunkOf(voxel));
-    if (found != chunks_.end()) found->second[wordOf(voxel)] &= ~bitOf(voxel);
-  }
-  void insert(const VoxelSet& other) {
-    for (const auto& [chunk, bits] : other.chunks_) {
-      Bits& own = of(chunk);
-      for (std::size_t word = 0; word < bits.size(); ++word) own[word] |= bits[word];
+/// What one axis contributes to a beam: where it crosses the planes between voxels, and the axis'
+/// part of the voxel's code before the first crossing and after each.
+struct AxisCrossings {
+  std::vector<double> at;  ///< fractions of the beam, ascending, then infinity
+  std::vector<VoxelCode> code;
+};
+
+/// The walk of detail::traverseVoxels() for beams that are walked to their end: the same crossings,
+/// in the same order, but all divisions of an axis at once and no branch that depends on which
+/// plane comes first.
+class BeamMarker {
+ public:
+  BeamMarker(const Grid& grid, const Eigen::Vector3d& origin, const detail::VoxelCoder& coder)
+      : grid_(grid), origin_(origin), coder_(coder) {}
+
+  void mark(const Eigen::Vector3d& target, VoxelBits& crossed) {
+    const Eigen::Vector3d displacement = target - origin_;
+    std::size_t steps = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::int32_t first = grid_.indexOf(origin_[axis]);
+      const std::int32_t last = grid_.indexOf(target[axis]);
+      const auto size = static_cast<std::size_t>(std::abs(last - first));
+      AxisCrossings& crossings = axes_[static_cast<std::size_t>(axis)];
+      if (crossings.at.size() < size + 1) {
+        crossings.at.resize(2 * size + 1);
+        crossings.code.resize(2 * size + 1);
+      }
+      cross(grid_.resolution(), origin_[axis], displacement[axis], first, last,
+            crossings.at.data());
+      crossings.at[size] = std::numeric_limits<double>::infinity();
+      const std::int32_t step = last > first ? 1 : -1;
+      for (std::size_t i = 0; i <= size; ++i)
+        crossings.code[i] = coder_.code(axis, first + step * static_cast<std::int32_t>(i));
+      steps += size;
     }
-  }
-  template <class Visitor>
-  void forEachChunk(Visitor&& visit) const {
-    for (const auto& [chunk, bits] : chunks_) visit(chunk, bits);
+    walk(steps, crossed);
   }
 
  private:
-  struct Hash {
-    std::size_t operator()(const ChunkIndex& c) const {
-      const auto mix = [](std::int32_t i, std::uint64_t factor) {
-        return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)) * factor;
-      };
-      const std::uint64_t sum = mix(c.x, 0x9E3779B97F4A7C15ull) + mix(c.y, 0xC2B2AE3D27D4EB4Full) +
-                                mix(c.z, 0x165667B19E3779F9ull);
-      return static_cast<std::size_t>(sum >> 20U);
-    }
-  };
-
-  static std::size_t wordOf(const VoxelIndex& v) {
-    return static_cast<std::size_t>(indexInChunk(v)) >> 6U;
-  }
-  static std::uint64_t bitOf(const VoxelIndex& v) {
-    return std::uint64_t{1} << (static_cast<unsigned>(indexInChunk(v)) & 63U);
-  }
-  Bits& of(const ChunkIndex& chunk) {
-    if (last_ == nullptr || last_chunk_ != chunk) {  // a beam stays in a chunk for several voxels
-      last_chunk_ = chunk;
-      last_ = &chunks_[chunk];
-    }
-    return *last_;
+  /// Where the planes between the voxels `first` and `last` of an axis are crossed.
+  CSOM_EVERY_PROCESSOR
+  static void cross(double resolution, double origin, double displacement, std::int32_t first,
+                    std::int32_t last, double* at) {
+    const std::int32_t step = last > first ? 1 : -1;
+    const std::int32_t plane = last > first ? first + 1 : first;
+    const std::int32_t size = (last - first) * step;
+    for (std::int32_t i = 0; i < size; ++i)
+      at[i] = (resolution * (plane + step * i) - origin) / displacement;
   }
 
-  std::unordered_map<ChunkIndex, Bits, Hash> chunks_;
-  ChunkIndex last_chunk_;
-  Bits* last_ = nullptr;  ///< elements of an unordered_map stay where they are
+  void walk(std::size_t steps, VoxelBits& crossed) const {
+    const auto& [x, y, z] = axes_;
+    std::size_t in_x = 0;
+    std::size_t in_y = 0;
+    std::size_t in_z = 0;
+    VoxelCode chunk = ~VoxelCode{0};
+    VoxelBits::Bits* bits = nullptr;
+    for (std::size_t step = 0;; ++step) {
+      const VoxelCode voxel = x.code[in_x] | y.code[in_y] | z.code[in_z];
+      if (detail::chunkOfCode(voxel) != chunk) {
+        chunk = detail::chunkOfCode(voxel);
+        bits = &crossed.of(chunk);
+      }
+      VoxelBits::set(*bits, voxel);
+      if (step == steps) break;
+      const double next_x = x.at[in_x];
+      const double next_y = y.at[in_y];
+      const double next_z = z.at[in_z];
+      const bool by_z = (next_x <= next_y ? next_x : next_y) > next_z;
+      const bool by_x = !by_z & (next_x <= next_y);
+      in_x += by_x ? 1 : 0;
+      in_y += by_x | by_z ? 0 : 1;
+      in_z += by_z ? 1 : 0;
+    }
+  }
+
+  const Grid& grid_;
+  const Eigen::Vector3d origin_;
+  const detail::VoxelCoder& coder_;
+  std::array<AxisCrossings, 3> axes_;
 };
 
-VoxelSet crossedVoxels(const PreparedScan& scan, const Options& options) {
-  const Grid grid(options.resolution);
-  VoxelSet crossed;
-  std::mutex mutex;
+VoxelBits crossedVoxels(const PreparedScan& scan, const Grid& grid, const detail::VoxelCoder& coder,
+                        int threads) {
+  const std::vector<Eigen::Vector3d>& ends = scan.beam_ends;
+  const std::size_t count = detail::partsFor(ends.size(), threads);
+  std::vector<VoxelBits> parts(count);
+  detail::parallelRanges(count, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t part = begin; part < end; ++part) {
+      BeamMarker marker(grid, scan.origin, coder);
+      const std::size_t last = detail::partBegin(ends.size(), part + 1, count);
+      for (std::size_t i = detail::partBegin(ends.size(), part, count); i < last; ++i)
+        marker.mark(ends[i], parts[part]);
+    }
+  });
+  VoxelBits crossed = std::move(parts.front());
   // Unions commute: however the beams are divided, the set is the same.
-  detail::parallelRanges(scan.beam_ends.size(), options.threads,
-                         [&](std::size_t begin, std::size_t end) {
-                           VoxelSet part;
-                           for (std::size_t beam = begin; beam < end; ++beam) {
-                             detail::traverseVoxels(grid, scan.origin, scan.beam_ends[beam],
-                                                    [&](const VoxelIndex& voxel, double) {
-                                                      part.insert(voxel);
-                                                      return true;
-                                                    });
-                           }
-                           const std::lock_guard<std::mutex> lock(mutex);
-                           crossed.insert(part);
-                         });
-  for (const Eigen::Vector3d& end : scan.beam_ends) crossed.erase(grid.voxelAt(end));
-  for (const VoxelIndex& voxel : scan.hit_voxels) crossed.erase(voxel);
+  for (std::size_t part = 1; part < count; ++part) crossed.insert(parts[part]);
+  for (const Eigen::Vector3d& end : ends) crossed.erase(coder.code(grid.voxelAt(end)));
+  for (const VoxelIndex& voxel : scan.hit_voxels) crossed.erase(coder.code(voxel));
   return crossed;
 }
 
 }  // namespace
 
 ScanIncrements castFreeSpace(const PreparedScan& scan, const Options& options, ScanReport& report) {
+  if (scan.beam_ends.empty()) return {};
   ScanIncrements out;
+  const Grid grid(options.resolution);
+  const detail::VoxelCoder coder(grid.voxelAt(scan.origin));
   const std::uint32_t count = detail::toCount(options.free_weight);
-  crossedVoxels(scan, options)
-      .forEachChunk([&](const ChunkIndex& chunk, const VoxelSet::Bits& bits) {
-        ChunkIncrements increments{chunk, {}};
+  crossedVoxels(scan, grid, coder, options.threads)
+      .forEachChunk([&](VoxelCode chunk, const VoxelBits::Bits& bits) {
+        std::size_t voxels = 0;
+        for (const std::uint64_t word : bits)
+          voxels += static_cast<std::size_t>(__builtin_popcountll(word));
+        if (voxels == 0) return;
+        report.free_voxels += voxels;
+        std::vector<CountIncrement> increments(voxels);
+        auto next = increments.begin();
         for (std::size_t word = 0; word < bits.size(); ++word) {
           for (std::uint64_t left = bits[word]; left != 0; left &= left - 1) {
             const auto voxel = static_cast<std::uint16_t>(
                 word * 64 + static_cast<std::size_t>(__builtin_ctzll(left)));
-            increments.increments.push_back({voxel, kFreeClass, count});
+            *next++ = {voxel, kFreeClass, count};
           }
         }
-        report.free_voxels += increments.increments.size();
-        if (!increments.increments.empty()) out.push_back(std::move(increments));
+        out.push_back({coder.chunk(chunk), std::move(increments)});
       });
   return out;
 }
