@@ -75,6 +75,11 @@ void printSummary(const RunRecord& record, const MapFigures& figures, const Outp
   if (pointsRejected(record) > 0)
     std::printf("rejected  %s points (reasons in run.json)\n",
                 formatCount(pointsRejected(record)).c_str());
+  if (const auto& cameras = record.camera_labels)
+    std::printf("cameras   %s labelled; %s outside of their view, %s hidden or at an edge\n",
+                formatCount(cameras->points.labelled, "point").c_str(),
+                formatCount(cameras->points.outside_view).c_str(),
+                formatCount(cameras->points.hidden + cameras->points.at_edge).c_str());
   for (const RefusedObservations& refused : record.refused)
     std::printf("unused    %s %s: %s\n", formatCount(refused.count).c_str(),
                 detail::printable(refused.observation_class).c_str(),

@@ -9,6 +9,7 @@
 #include <mrpt/obs/CObservationStereoImages.h>
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 
 namespace csom::detail {
@@ -58,6 +59,16 @@ std::vector<std::string> externalFilesOf(const mrpt::obs::CObservation& observat
       files.push_back(mrpt::io::lazy_load_absolute_path(cloud->getExternalStorageFile()));
   }
   return files;
+}
+
+void loadImages(mrpt::obs::CObservation& observation) {
+  for (const mrpt::img::CImage* image : imagesOf(observation)) {
+    try {
+      if (image->isExternallyStored()) image->forceLoad();
+    } catch (const std::exception&) {
+      // Tried again, and reported, where the image is needed.
+    }
+  }
 }
 
 mrpt::obs::CObservation::Ptr withAbsoluteImagePaths(

@@ -4,6 +4,8 @@
 #include <csom/rawlog/MappingRun.h>
 #include <csom/rawlog/RawlogSurvey.h>
 #include <csom/rawlog/ReadAhead.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationStereoImages.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
@@ -11,6 +13,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "CrashReport.h"
 #include "EigenPose.h"
 #include "ExternalFiles.h"
 #include "MrptText.h"
@@ -24,6 +27,7 @@ using mrpt::poses::CPose3D;
 /// Not worth a warning: logs hold many kinds of observations.
 constexpr char kOtherKind[] = "of a kind that this map does not take";
 
+constexpr char kNoLabelSource[] = "no label source of the ini names their sensor label";
 constexpr char kNoPoints[] = "none of its points can be used";
 
 /// Enough for the network to find the next scan ready, few enough for memory.
@@ -48,6 +52,11 @@ std::optional<std::string> whyNotTaken(const LastInsertion& last) {
       break;
   }
   return std::nullopt;
+}
+
+bool isImage(const mrpt::obs::CObservation& observation) {
+  return dynamic_cast<const mrpt::obs::CObservationImage*>(&observation) != nullptr ||
+         dynamic_cast<const mrpt::obs::CObservationStereoImages*>(&observation) != nullptr;
 }
 
 CSemanticContinuousMap::TMapDefinition definitionOf(const std::string& file) {
@@ -76,7 +85,12 @@ CSemanticContinuousMap::Ptr emptyMap(const MappingRequest& request) {
   if (request.label_cache) definition.labelOpts.label_cache = *request.label_cache;
   auto map = std::make_shared<CSemanticContinuousMap>(definition);
   map->announce_damaged = false;  // it is reported as refused
-  map->openLabelSources();
+  {
+    const detail::CrashReport report("csom: " + request.config_file +
+                                     ": a network makes OpenCV crash while it is read; its model "
+                                     "file is damaged");
+    map->openLabelSources();
+  }
   return map;
 }
 
@@ -161,7 +175,8 @@ RawlogSurvey MappingRun::survey(const std::string& log) {
 
 void MappingRun::mapLog(const RawlogSurvey& survey, PoseSource& poses) {
   {
-    detail::PosedLog log(survey, poses, request_.deskew);
+    const bool cameras = result_.map->labelOptions.usesCameras();
+    detail::PosedLog log(survey, poses, {request_.deskew, cameras});
     ReadAhead<detail::PosedEntry> entries(kEntriesAhead, [&log] { return log.next(); });
     while (const auto entry = entries.next()) {
       mapEntry(*entry);
@@ -209,7 +224,9 @@ void MappingRun::insert(const mrpt::obs::CObservation& observation, const CPose3
   noteScans(scans_before, elapsed.count());
 
   const LastInsertion last = map.lastInsertion();
-  if (const auto reason = whyNotTaken(last)) {
+  if (auto reason = whyNotTaken(last)) {
+    if (reason == kOtherKind && map.labelOptions.usesCameras() && isImage(observation))
+      reason = kNoLabelSource;
     refuse(observation, *reason);
     return;
   }
@@ -283,7 +300,7 @@ void MappingRun::finish() {
   if (up_.norm() > 0) result_.up = up_.normalized();
   warnAboutPoints();
   for (const auto& [what, count] : result_.refused) {
-    if (what.second == kOtherKind) continue;
+    if (what.second == kOtherKind || what.second == kNoLabelSource) continue;
     warn("refused " + counted(count, what.first) + ": " + what.second);
   }
   if (result_.map->isEmpty()) throw std::runtime_error(whyEmpty());

@@ -6,6 +6,8 @@
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
+#include "ExternalFiles.h"
+
 namespace csom::detail {
 namespace {
 
@@ -17,11 +19,11 @@ bool tellsPose(const mrpt::obs::CObservation& observation) {
 
 }  // namespace
 
-PosedLog::PosedLog(const RawlogSurvey& survey, PoseSource& poses, bool deskew)
+PosedLog::PosedLog(const RawlogSurvey& survey, PoseSource& poses, const Options& options)
     : reader_(survey.file, RawlogReader::Soundness::Known),
       unread_(survey.end.entries),
       poses_(poses),
-      deskew_(deskew) {}
+      options_(options) {}
 
 std::optional<PosedEntry> PosedLog::next() {
   while (waiting_.empty() || (waiting_.size() <= kMostWaiting && !poses_.knows(waiting_.front()))) {
@@ -48,8 +50,9 @@ PosedEntry PosedLog::posed(const RawlogEntry& entry) {
   for (const auto& observation : entry.observations) {
     if (tellsPose(*observation)) continue;
     const auto pose = poses_.poseOf(entry, *observation);
+    if (options_.load_images) loadImages(*observation);
     out.observations.push_back(
-        {pose && deskew_ ? withoutMotion(observation, out.deskew) : observation, pose});
+        {pose && options_.deskew ? withoutMotion(observation, out.deskew) : observation, pose});
   }
   return out;
 }

@@ -31,8 +31,13 @@ struct PosedEntry {
 /// collect the rest of the log in memory.
 class PosedLog {
  public:
-  /// `deskew`: take the robot's motion out of scans. `poses` must outlive this.
-  PosedLog(const RawlogSurvey& survey, PoseSource& poses, bool deskew);
+  struct Options {
+    bool deskew = true;        ///< take the robot's motion out of scans
+    bool load_images = false;  ///< from their files
+  };
+
+  /// `poses` must outlive this.
+  PosedLog(const RawlogSurvey& survey, PoseSource& poses, const Options& options);
 
   std::optional<PosedEntry> next();
 
@@ -47,7 +52,7 @@ class PosedLog {
   RawlogReader reader_;
   std::size_t unread_;
   PoseSource& poses_;
-  bool deskew_;
+  Options options_;
   std::deque<RawlogEntry> waiting_;
 };
 

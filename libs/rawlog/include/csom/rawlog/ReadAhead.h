@@ -13,6 +13,13 @@
 #include <utility>
 
 namespace csom {
+namespace detail {
+
+/// Lets the calling thread have only the time of the processors that others leave: what is made
+/// ahead is not urgent, and must not slow down those who take it.
+void giveWay();
+
+}  // namespace detail
 
 /// Calls `make` again and again in its own thread, until it gives nothing, and keeps at most
 /// `capacity` of what it gave, in order. For one thread that takes.
@@ -52,6 +59,7 @@ class ReadAhead {
 
  private:
   void run() {
+    detail::giveWay();
     std::exception_ptr error;
     try {
       while (auto item = make_()) {
