@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The image that an observation carries, with the camera that took it.
-#include "CameraImage.h"
-
+#include <csom/maps/CameraImage.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationStereoImages.h>

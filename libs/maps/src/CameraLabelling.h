@@ -3,6 +3,7 @@
 #pragma once
 
 #include <csom/io/LabelSet.h>
+#include <csom/maps/CameraImage.h>
 #include <csom/maps/CameraLabelledAdapter.h>
 
 #include <deque>
@@ -11,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "CameraImage.h"
 #include "ImageLabeller.h"
 #include "ImageStream.h"
 #include "WaitingScan.h"

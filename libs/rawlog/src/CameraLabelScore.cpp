@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Labels points by camera images of a simulated world, and asks the world who is right.
 #include <csom/core/Error.h>
+#include <csom/maps/CameraImage.h>
 #include <csom/maps/PointExtractor.h>
 #include <csom/rawlog/CameraLabelScore.h>
 #include <csom/rawlog/RawlogReader.h>
@@ -62,14 +63,15 @@ struct Sensors {
 /// A class-id image as a camera that points are projected into.
 class LabelCamera {
  public:
-  LabelCamera(const CObservationImage& observation, const LabelSet& labels)
-      : projection_(calibrationOf(observation)),
-        image_(observation.image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY),
+  /// `image`: of class ids.
+  LabelCamera(const CameraImage& image, const LabelSet& labels)
+      : projection_(image.calibration),
+        image_(image.pixels,
                [&labels](std::uint32_t raw) {
                  const LabelSet::Raw found = labels.classOfRaw(raw);
                  return found.kind == LabelSet::RawKind::Class ? found.id : kUnknownPixel;
                }),
-        pose_(toEigen(observation.cameraPose)) {}
+        pose_(toEigen(image.pose_on_robot)) {}
 
   /// On the robot.
   const Isometry3d& pose() const { return pose_; }
@@ -79,18 +81,6 @@ class LabelCamera {
   }
 
  private:
-  static CameraCalibration calibrationOf(const CObservationImage& observation) {
-    const mrpt::img::TCamera& camera = observation.cameraParams;
-    CameraCalibration c;
-    c.width = static_cast<int>(camera.ncols);
-    c.height = static_cast<int>(camera.nrows);
-    c.fx = camera.fx();
-    c.fy = camera.fy();
-    c.cx = camera.cx();
-    c.cy = camera.cy();
-    return c;
-  }
-
   CameraProjection projection_;
   LabelImage image_;
   Isometry3d pose_;
@@ -173,7 +163,7 @@ void Scorer::add(const mrpt::obs::CObservation::Ptr& observation) {
 
 std::unique_ptr<LabelCamera> Scorer::cameraOf(const CObservationImage& image) const {
   try {
-    return std::make_unique<LabelCamera>(image, world_.labels());
+    return std::make_unique<LabelCamera>(*cameraImageOf(image), world_.labels());
   } catch (const std::exception& error) {
     throw FileError(rawlog_, "image of '" + image.sensorLabel + "': " + error.what());
   }
