@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From logs to a map: what `csom map` does, without its files and its terminal.
 #include <csom/core/Error.h>
+#include <csom/io/TextParser.h>
 #include <csom/rawlog/MappingRun.h>
 #include <csom/rawlog/RawlogSurvey.h>
 #include <csom/rawlog/ReadAhead.h>
@@ -140,6 +141,7 @@ class MappingRun {
   }
   void warn(const std::string& text) { result_.warnings.push_back(text); }
   void warnAboutPoints();
+  void warnAboutCameras();
   void finish();
   std::string whyEmpty() const;
 
@@ -292,6 +294,18 @@ void MappingRun::warnAboutPoints() {
          "; unlabelled_class or scan_2d_class can give them a class");
 }
 
+void MappingRun::warnAboutCameras() {
+  const auto cameras = result_.map->cameraStatistics();
+  if (!cameras) return;
+  for (const CameraStatistics::Source& source : cameras->sources) {
+    if (source.images_read == 0)
+      warn("label source " + detail::quoted(source.sensor_label) + ": no image of it was read");
+  }
+  if (cameras->scans_without_image > 0)
+    warn(counted(cameras->scans_without_image, "scans") +
+         " had no image within max_time_offset: their points have no label");
+}
+
 void MappingRun::finish() {
   if (result_.deskew && result_.deskew->not_possible > 0)
     warn(counted(result_.deskew->not_possible, "scans") +
@@ -299,6 +313,7 @@ void MappingRun::finish() {
          "span the time of their packets");
   if (up_.norm() > 0) result_.up = up_.normalized();
   warnAboutPoints();
+  warnAboutCameras();
   for (const auto& [what, count] : result_.refused) {
     if (what.second == kOtherKind || what.second == kNoLabelSource) continue;
     warn("refused " + counted(count, what.first) + ": " + what.second);
