@@ -7,9 +7,11 @@
 namespace csom::detail {
 
 void giveWay() {
-  constexpr int kLowest = 19;
+  // A tenth of the time where two compete. Not the lowest priority: other programs that keep the
+  // processors busy would starve this thread, and with it those who wait for it.
+  constexpr int kNice = 10;
   // Linux has priorities by thread. Where that fails the thread only is in the way of others.
-  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kLowest);
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice);
 }
 
 }  // namespace csom::detail

@@ -15,8 +15,8 @@
 namespace csom {
 namespace detail {
 
-/// Lets the calling thread have only the time of the processors that others leave: what is made
-/// ahead is not urgent, and must not slow down those who take it.
+/// Lets the calling thread stand back behind the others of the process where processors are short:
+/// what is made ahead is not urgent, and must not slow down those who take it.
 void giveWay();
 
 }  // namespace detail
