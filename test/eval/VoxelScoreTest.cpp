@@ -2,30 +2,12 @@
 #include <csom/eval/VoxelScore.h>
 #include <gtest/gtest.h>
 
-#include <vector>
+#include "eval/LabelledVoxels.h"
 
 namespace csom {
 namespace {
 
-struct Voxel {
-  VoxelIndex index;
-  ClassId class_id;
-};
-
-SemanticMap mapOf(const std::vector<Voxel>& voxels, double resolution = 0.5) {
-  Options options;
-  options.method = Method::SCsm;
-  options.resolution = resolution;
-  options.number_of_classes = 4;
-  SemanticMap map(options);
-  Scan scan;
-  for (const Voxel& v : voxels) {
-    scan.points.push_back(map.grid().center(v.index).cast<float>());
-    scan.labels.push_back(v.class_id);
-  }
-  map.insert(scan);
-  return map;
-}
+using test::mapOf;
 
 TEST(VoxelScore, CountsAgainstAPointCloud) {
   const SemanticMap truth = mapOf({{{0, 0, 0}, 1}, {{1, 0, 0}, 1}, {{2, 0, 0}, 1}, {{3, 0, 0}, 2}});
@@ -43,10 +25,14 @@ TEST(VoxelScore, CountsAgainstAPointCloud) {
   EXPECT_DOUBLE_EQ(score.iou(2), 0);
   EXPECT_DOUBLE_EQ(score.precision(1), 2.0 / 3);
   EXPECT_DOUBLE_EQ(score.recall(1), 2.0 / 3);
+  EXPECT_DOUBLE_EQ(score.f1(1), 4.0 / 6);
   EXPECT_DOUBLE_EQ(score.weightedAverageIou(), (3 * 0.5 + 1 * 0) / 4);
+  EXPECT_DOUBLE_EQ(score.macroF1(), (4.0 / 6 + 0) / 2);
   EXPECT_DOUBLE_EQ(score.geometricIou(), 3.0 / 5);
   EXPECT_DOUBLE_EQ(score.geometricPrecision(), 3.0 / 4);
   EXPECT_DOUBLE_EQ(score.geometricRecall(), 3.0 / 4);
+  EXPECT_DOUBLE_EQ(score.geometricF1(), 3.0 / 4);
+  EXPECT_DOUBLE_EQ(score.freeIou(), 49.0 / 51);
   EXPECT_DOUBLE_EQ(score.accuratenessOccupied(), 2.0 / 5);
   EXPECT_DOUBLE_EQ(score.accuratenessBox(), (2.0 + 49) / 54);
 }
