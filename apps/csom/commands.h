@@ -16,6 +16,7 @@ void addMergeCommand(CLI::App& program);
 void addEvalCommand(CLI::App& program);
 /// Below `csom eval`.
 void addEvalCameraCommand(CLI::App& eval);
+void addEvalRunCommand(CLI::App& eval);
 void addExportCommand(CLI::App& program);
 
 }  // namespace csom

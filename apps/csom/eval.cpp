@@ -110,6 +110,7 @@ void addEvalCommand(CLI::App& program) {
       "  csom eval voxels --map out/map.csom --truth truth.csom");
   voxels->callback([arguments] { runEvalVoxels(*arguments); });
   addEvalCameraCommand(*eval);
+  addEvalRunCommand(*eval);
 }
 
 }  // namespace csom

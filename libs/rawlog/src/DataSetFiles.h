@@ -13,10 +13,6 @@ namespace csom::detail {
 
 constexpr double kScanPeriod = 0.1;  ///< [s], where a data set gives no times
 
-/// Files of `folder` that end in `extension` (".bin"), in natural order. Throws FileError if there
-/// is no such folder or no such file in it.
-std::vector<std::string> filesIn(const std::string& folder, const std::string& extension);
-
 /// Positions chosen out of `files`. Throws FileError naming `folder` if there are none.
 std::vector<std::size_t> choose(const ScanSelection& selection, const std::string& folder,
                                 std::size_t count);

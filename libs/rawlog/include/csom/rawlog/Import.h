@@ -37,4 +37,11 @@ using ImportProgress = std::function<void(std::size_t scans_done, std::size_t sc
 /// "2.pcd" before "10.pcd": runs of digits are compared as numbers.
 bool naturalLess(const std::string& a, const std::string& b);
 
+namespace detail {
+
+/// Files of `folder` that end in `extension` (".bin"), in natural order. Throws FileError if there
+/// is no such folder or no such file in it.
+std::vector<std::string> filesIn(const std::string& folder, const std::string& extension);
+
+}  // namespace detail
 }  // namespace csom

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// P3: a street, mapped from what a network says of every second scan.
+#pragma once
+
+#include <csom/protocols/Trial.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace csom {
+
+/// A scan in the map frame, with the true labels and with those of a network.
+struct StreetScan {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the sensor
+  std::vector<Eigen::Vector3d> points;
+  std::vector<ClassId> labels;       ///< kFreeClass: unlabelled
+  std::vector<ClassId> predictions;  ///< kFreeClass: unlabelled
+};
+
+struct Street {
+  LabelSet labels = LabelSet::occupancy();
+  std::vector<StreetScan> scans;
+  std::vector<std::string> warnings;  ///< what was left out, one line each
+};
+
+/// Reads a sequence in the layout of SemanticKITTI: velodyne/*.bin, labels/*.label,
+/// predictions/*.label, poses.txt and calib.txt; the map frame is that of poses.txt. Labels that
+/// the label set does not know are not used and warned of. Throws FileError.
+Street readStreet(const std::string& folder, const LabelSet& labels);
+
+/// Maps the scans 0, `every`, 2·`every` … with the network's labels, down-sampled to `density` [m];
+/// the truth are the labels of all scans.
+std::vector<Trial> streetTrials(const Street& street, std::size_t every, double density,
+                                double resolution);
+
+/// The network's own labels against the truth, of all scans: what a map must beat.
+PointScore scoreOfPredictions(const Street& street);
+
+}  // namespace csom

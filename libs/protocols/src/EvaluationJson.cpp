@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <csom/protocols/EvaluationJson.h>
+
+namespace csom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The names of the classes that either side of a matrix has, free first.
+std::vector<ClassId> classesOf(const ConfusionMatrix& matrix) {
+  std::vector<ClassId> found;
+  for (int i = 0; i < matrix.numberOfClasses(); ++i) {
+    const auto k = static_cast<ClassId>(i);
+    if (matrix.truthCount(k) + matrix.predictedCount(k) > 0) found.push_back(k);
+  }
+  return found;
+}
+
+Json confusionOf(const ConfusionMatrix& matrix, const LabelSet& labels) {
+  Json json;
+  const std::vector<ClassId> classes = classesOf(matrix);
+  for (const ClassId k : classes) json["classes"].push_back(labels.at(k).name);
+  json["rows"] = "truth";
+  for (const ClassId truth : classes) {
+    Json row;
+    for (const ClassId predicted : classes) row.push_back(matrix.count(truth, predicted));
+    json["counts"].push_back(row);
+  }
+  return json;
+}
+
+void addClasses(Json& json, const ConfusionMatrix& matrix, const LabelSet& labels) {
+  for (const char* key : {"iou", "class_precision", "class_recall", "f1"})
+    json[key] = Json::object();
+  for (const ClassId k : classesOf(matrix)) {
+    if (k == kFreeClass) continue;
+    const std::string& name = labels.at(k).name;
+    json["iou"][name] = matrix.iou(k);
+    json["class_precision"][name] = matrix.precision(k);
+    json["class_recall"][name] = matrix.recall(k);
+    json["f1"][name] = matrix.f1(k);
+  }
+}
+
+void addOccupancy(Json& json, const VoxelScore& score) {
+  json["geometric_iou"] = score.geometricIou();
+  json["precision"] = score.geometricPrecision();
+  json["recall"] = score.geometricRecall();
+  json["occupied_f1"] = score.geometricF1();
+  json["free_iou"] = score.freeIou();
+}
+
+void addRoc(Json& json, const RocFigures& roc, const std::string& suffix) {
+  json["auc" + suffix] = roc.auc;
+  json["tpr_at_fpr_0.2" + suffix] = roc.tpr_at_fpr_02;
+  Json curve = Json::array();
+  for (const RocPoint& point : roc.curve)
+    curve.push_back({point.false_positive_rate, point.true_positive_rate});
+  json["roc" + suffix] = std::move(curve);
+}
+
+}  // namespace
+
+Json toJson(const VoxelScore& score, const LabelSet& labels) {
+  Json json;
+  json["w_average_iou"] = score.weightedAverageIou();
+  addClasses(json, score.matrix(), labels);
+  json["macro_f1"] = score.macroF1();
+  addOccupancy(json, score);
+  json["accurateness"] = score.accuratenessOccupied();
+  json["accurateness_box"] = score.accuratenessBox();
+  json["voxels"] = score.voxels();
+  json["confusion"] = confusionOf(score.matrix(), labels);
+  return json;
+}
+
+Json toJson(const PointScore& score, const LabelSet& labels) {
+  Json json;
+  json["miou_points"] = score.meanIou();
+  json["accuracy_points"] = score.accuracy();
+  json["miou_points_covered"] = score.coveredMeanIou();
+  json["accuracy_points_covered"] = score.coveredAccuracy();
+  json["coverage"] = score.coverage();
+  if (score.calibration().count() > 0) {
+    json["brier"] = score.calibration().brier();
+    json["ece"] = score.calibration().expectedCalibrationError();
+  }
+  json["points"] = score.points();
+  json["iou_points"] = Json::object();
+  for (const ClassId k : score.matrix().classesInTruth())
+    json["iou_points"][labels.at(k).name] = score.matrix().iou(k);
+  return json;
+}
+
+Json toJson(const TrialResult& result, const LabelSet& labels) {
+  Json json;
+  json["variant"] = result.variant;
+  json["method"] = result.method;
+  json["scans"] = result.scans;
+  if (result.classes) {
+    json.update(toJson(result.voxels, labels));
+  } else {
+    addOccupancy(json, result.voxels);
+    json["accurateness_box"] = result.voxels.accuratenessBox();
+    json["voxels"] = result.voxels.voxels();
+  }
+  json["known_voxels"] = result.known_share;
+  if (result.roc_unknown_half) addRoc(json, *result.roc_unknown_half, "");
+  if (result.roc_unknown_zero) addRoc(json, *result.roc_unknown_zero, "_unknown_zero");
+  if (result.calibration.count() > 0) {
+    json["brier"] = result.calibration.brier();
+    json["ece"] = result.calibration.expectedCalibrationError();
+    json["occupancy_brier"] = result.occupancy_calibration.brier();
+    json["occupancy_ece"] = result.occupancy_calibration.expectedCalibrationError();
+  }
+  if (result.points) json.update(toJson(*result.points, labels));
+  json["ms_per_scan"] = result.ms_per_scan;
+  return json;
+}
+
+Json toJson(const Evaluation& evaluation) {
+  Json json;
+  json["protocols"] = Json::object();
+  for (const TrialResult& result : evaluation.results)
+    json["protocols"][result.protocol]["results"].push_back(
+        toJson(result, evaluation.labels.at(result.protocol)));
+  for (auto& [name, protocol] : json["protocols"].items()) {
+    for (const ProtocolInfo& info : allProtocols())
+      if (info.name == name) protocol["title"] = info.title;
+    protocol["source"] = evaluation.sources.at(name);
+  }
+  if (evaluation.predictions)
+    json["protocols"]["P3"]["input_labels"] =
+        toJson(*evaluation.predictions, evaluation.labels.at("P3"));
+  json["left_out"] = Json::array();
+  for (const LeftOutProtocol& left : evaluation.left_out)
+    json["left_out"].push_back({{"protocol", left.name}, {"reason", left.reason}});
+  json["warnings"] = evaluation.warnings;
+  return json;
+}
+
+}  // namespace csom

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <csom/protocols/EvaluationTables.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "MarkdownTable.h"
+#include "PublishedFigures.h"
+
+namespace csom {
+namespace {
+
+using detail::fixed;
+using detail::MarkdownTable;
+using detail::percent;
+
+constexpr char kNone[] = "–";
+
+using Results = std::vector<const TrialResult*>;
+
+Results resultsOf(const Evaluation& evaluation, std::string_view protocol) {
+  Results found;
+  for (const TrialResult& result : evaluation.results)
+    if (result.protocol == protocol) found.push_back(&result);
+  return found;
+}
+
+/// Distinct values in the order in which they come.
+template <class Key>
+std::vector<std::string> distinct(const Results& results, Key&& key) {
+  std::vector<std::string> values;
+  for (const TrialResult* result : results) {
+    const std::string value = key(*result);
+    if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+  }
+  return values;
+}
+
+template <std::size_t N>
+std::string published(const std::array<detail::PublishedFigure, N>& figures,
+                      std::string_view protocol, std::string_view variant, std::string_view method,
+                      std::string_view metric, std::string (*show)(double)) {
+  for (const auto& figure : figures) {
+    const std::string_view of_variant = figure.variant;
+    if (figure.protocol == protocol && (of_variant.empty() || of_variant == variant) &&
+        figure.method == method && figure.metric == metric)
+      return show(figure.value);
+  }
+  return kNone;
+}
+
+std::string three(double value) {
+  return fixed(value, 3);
+}
+std::string milliseconds(double value) {
+  return fixed(value, value < 100 ? 1 : 0);
+}
+
+std::string weightedIou(const TrialResult& result) {
+  return result.classes ? percent(result.voxels.weightedAverageIou()) : kNone;
+}
+
+/// A row a method, a column for each value of `column`.
+template <class Column, class Cell>
+std::string pivot(const Results& results, const std::string& corner, Column&& column, Cell&& cell) {
+  std::vector<std::string> header{corner};
+  const auto columns = distinct(results, column);
+  header.insert(header.end(), columns.begin(), columns.end());
+  MarkdownTable table(header);
+  for (const std::string& method :
+       distinct(results, [](const TrialResult& r) { return r.method; })) {
+    std::vector<std::string> row{method};
+    for (const std::string& value : columns) {
+      const auto found = std::find_if(results.begin(), results.end(), [&](const TrialResult* r) {
+        return r->method == method && column(*r) == value;
+      });
+      row.push_back(found == results.end() ? kNone : cell(**found));
+    }
+    table.add(row);
+  }
+  return table.text();
+}
+
+/// Everything that labelled points tell of each result.
+std::string pointCloudDetails(const Results& results, bool with_variant) {
+  std::vector<std::string> header{"method"};
+  if (with_variant) header.push_back("variant");
+  for (const char* name :
+       {"w-avg IoU", "geom. IoU", "precision", "recall", "accurateness", "of the box",
+        "mIoU points", "acc. points", "coverage", "Brier", "ECE", "ms/scan"})
+    header.push_back(name);
+  MarkdownTable table(header);
+  for (const TrialResult* r : results) {
+    std::vector<std::string> row{r->method};
+    if (with_variant) row.push_back(r->variant);
+    const auto add = [&](bool there, const std::string& text) {
+      row.push_back(there ? text : kNone);
+    };
+    add(true, weightedIou(*r));
+    add(true, percent(r->voxels.geometricIou()));
+    add(true, percent(r->voxels.geometricPrecision()));
+    add(true, percent(r->voxels.geometricRecall()));
+    add(r->classes, percent(r->voxels.accuratenessOccupied()));
+    add(true, percent(r->voxels.accuratenessBox()));
+    const bool points = r->points.has_value();
+    add(points, points ? percent(r->points->meanIou()) : "");
+    add(points, points ? percent(r->points->accuracy()) : "");
+    add(points, points ? percent(r->points->coverage()) : "");
+    add(points, points ? three(r->points->calibration().brier()) : "");
+    add(points, points ? three(r->points->calibration().expectedCalibrationError()) : "");
+    add(true, milliseconds(r->ms_per_scan));
+    table.add(row);
+  }
+  return table.text();
+}
+
+std::string exactDetails(const Results& results, bool with_variant) {
+  std::vector<std::string> header{"method"};
+  if (with_variant) header.push_back("variant");
+  for (const char* name :
+       {"AUC", "TPR@0.2", "AUC unkn. 0", "TPR@0.2 unkn. 0", "ECE", "Brier", "occ. ECE", "w-avg IoU",
+        "F1", "occ. F1", "accuracy", "free IoU", "occ. IoU", "known", "ms/scan"})
+    header.push_back(name);
+  MarkdownTable table(header);
+  for (const TrialResult* r : results) {
+    std::vector<std::string> row{r->method};
+    if (with_variant) row.push_back(r->variant);
+    for (const auto* roc : {&r->roc_unknown_half, &r->roc_unknown_zero}) {
+      row.push_back(*roc ? three((*roc)->auc) : kNone);
+      row.push_back(*roc ? three((*roc)->tpr_at_fpr_02) : kNone);
+    }
+    row.push_back(three(r->calibration.expectedCalibrationError()));
+    row.push_back(three(r->calibration.brier()));
+    row.push_back(three(r->occupancy_calibration.expectedCalibrationError()));
+    row.push_back(weightedIou(*r));
+    row.push_back(r->classes ? percent(r->voxels.macroF1()) : kNone);
+    row.push_back(percent(r->voxels.geometricF1()));
+    row.push_back(percent(r->voxels.accuratenessBox()));
+    row.push_back(percent(r->voxels.freeIou()));
+    row.push_back(percent(r->voxels.geometricIou()));
+    row.push_back(percent(r->known_share));
+    row.push_back(milliseconds(r->ms_per_scan));
+    table.add(row);
+  }
+  return table.text();
+}
+
+std::string variantOf(const TrialResult& result) {
+  return result.variant;
+}
+
+std::string densitySweep(const Results& results) {
+  return "w-average IoU [%] by density:\n\n" + pivot(results, "method", variantOf, weightedIou) +
+         "All scores [%; Brier and ECE as they are]:\n\n" + pointCloudDetails(results, true);
+}
+
+std::string byObject(const Results& results) {
+  MarkdownTable table({"method", "variant", "w-avg IoU", "their code", "paper"});
+  for (const TrialResult* r : results)
+    table.add({r->method, r->variant, weightedIou(*r),
+               published(detail::kTheirCode, "P2", r->variant, r->method, "w_average_iou", percent),
+               published(detail::kPaper, "P2", r->variant, r->method, "w_average_iou", percent)});
+  return "w-average IoU [%]; the paper does not state its density:\n\n" + table.text() +
+         "All scores:\n\n" + pointCloudDetails(results, true);
+}
+
+std::string street(const Results& results, const std::optional<PointScore>& predictions) {
+  MarkdownTable table({"method", "w-avg IoU", "their code", "paper", "mIoU points", "acc. points"});
+  for (const TrialResult* r : results)
+    table.add({r->method, weightedIou(*r),
+               published(detail::kTheirCode, "P3", "", r->method, "w_average_iou", percent),
+               published(detail::kPaper, "P3", "", r->method, "w_average_iou", percent),
+               r->points ? percent(r->points->meanIou()) : kNone,
+               r->points ? percent(r->points->accuracy()) : kNone});
+  if (predictions)
+    table.add({"input labels", kNone, kNone, kNone, percent(predictions->meanIou()),
+               percent(predictions->accuracy())});
+  return table.text() + "All scores:\n\n" + pointCloudDetails(results, false);
+}
+
+std::string structuredRoom(const Results& results) {
+  MarkdownTable table({"method", "AUC", "paper", "TPR@0.2", "paper"});
+  for (const TrialResult* r : results) {
+    const auto& roc = r->roc_unknown_half;
+    table.add({r->method, roc ? three(roc->auc) : kNone,
+               published(detail::kPaper, "P4", "", r->method, "auc", three),
+               roc ? three(roc->tpr_at_fpr_02) : kNone,
+               published(detail::kPaper, "P4", "", r->method, "tpr_at_fpr_0.2", three)});
+  }
+  return "Unknown voxels score 0.5:\n\n" + table.text() + "All scores:\n\n" +
+         exactDetails(results, false);
+}
+
+std::string robot(const Results& results) {
+  MarkdownTable table({"method", "variant", "F1", "accuracy", "free IoU", "occ. IoU", "ms/scan"});
+  for (const TrialResult* r : results)
+    table.add({r->method, r->variant,
+               percent(r->classes ? r->voxels.macroF1() : r->voxels.geometricF1()),
+               percent(r->voxels.accuratenessBox()), percent(r->voxels.freeIou()),
+               percent(r->voxels.geometricIou()), milliseconds(r->ms_per_scan)});
+  const auto paper = [](const char* metric) {
+    return published(detail::kPaper, "P5", "", "see-csom", metric, percent);
+  };
+  table.add({"see-csom, paper", "other data", paper("macro_f1"), kNone, paper("free_iou"),
+             paper("geometric_iou"), kNone});
+  return table.text() + "All scores:\n\n" + exactDetails(results, true);
+}
+
+std::string repetition(const Results& results) {
+  const auto scans = [](const TrialResult& r) {
+    return std::to_string(r.scans) + (r.scans == 1 ? " scan" : " scans");
+  };
+  return "w-average IoU [%] after so many scans:\n\n" +
+         pivot(results, "method", scans, weightedIou);
+}
+
+/// "see-csom:block_depth=2:context_threshold=0.1" → its two values.
+std::string settingOf(const std::string& method, std::string_view key) {
+  const std::size_t at = method.find(std::string(key) + "=");
+  if (at == std::string::npos) return kNone;
+  const std::size_t begin = at + key.size() + 1;
+  return method.substr(begin, method.find(':', begin) - begin);
+}
+
+std::string parameterStudy(const Results& results) {
+  const auto depths =
+      distinct(results, [](const TrialResult& r) { return settingOf(r.method, "block_depth"); });
+  const auto thresholds = distinct(
+      results, [](const TrialResult& r) { return settingOf(r.method, "context_threshold"); });
+  const auto table = [&](std::string (*cell)(const TrialResult&)) {
+    std::vector<std::string> header{"D_b"};
+    for (const std::string& threshold : thresholds) header.push_back("T_con " + threshold);
+    MarkdownTable text(header);
+    for (const std::string& depth : depths) {
+      std::vector<std::string> row{depth};
+      for (const TrialResult* r : results)
+        if (settingOf(r->method, "block_depth") == depth) row.push_back(cell(*r));
+      text.add(row);
+    }
+    return text.text();
+  };
+  return "w-average IoU [%]:\n\n" + table(weightedIou) + "Milliseconds a scan:\n\n" +
+         table([](const TrialResult& r) { return milliseconds(r.ms_per_scan); });
+}
+
+/// The paper's Table IV.
+std::string runtimes(const Evaluation& evaluation) {
+  Results chosen;
+  for (const TrialResult& r : evaluation.results)
+    if ((r.protocol == "P2" && r.variant == "ds 0.10") || r.protocol == "P3" || r.protocol == "P4")
+      chosen.push_back(&r);
+  if (chosen.empty()) return "";
+  const auto column = [](const TrialResult& r) {
+    return std::string(r.protocol == "P2"   ? "room (P2, ds 0.10)"
+                       : r.protocol == "P3" ? "street (P3)"
+                                            : "structured room (P4)");
+  };
+  MarkdownTable theirs({"their code", "room", "street", "structured room"});
+  for (const char* method : {"s-csm", "s-bki", "see-csom"}) {
+    const auto of = [&](const char* protocol) {
+      return published(detail::kTheirCode, protocol, "", method, "ms_per_scan", milliseconds);
+    };
+    theirs.add({method, of("P2"), of("P3"), of("P4")});
+  }
+  return "## Runtime\n\nMedian time of an insertion [ms], one thread:\n\n" +
+         pivot(chosen, "method", column,
+               [](const TrialResult& r) { return milliseconds(r.ms_per_scan); }) +
+         "The code of the paper, on another machine:\n\n" + theirs.text();
+}
+
+std::string tablesOf(const std::string& protocol, const Results& results,
+                     const Evaluation& evaluation) {
+  if (protocol == "P1") return densitySweep(results);
+  if (protocol == "P2") return byObject(results);
+  if (protocol == "P3") return street(results, evaluation.predictions);
+  if (protocol == "P4") return structuredRoom(results);
+  if (protocol == "P5") return robot(results);
+  if (protocol == "P6") return repetition(results);
+  return parameterStudy(results);
+}
+
+}  // namespace
+
+std::string toMarkdown(const Evaluation& evaluation) {
+  std::string text;
+  for (const ProtocolInfo& info : allProtocols()) {
+    const Results results = resultsOf(evaluation, info.name);
+    if (results.empty()) continue;
+    text += "## " + info.name + ": " + info.title + "\n\nInput: " + info.input +
+            ". Truth: " + info.truth + ".\n\n" + tablesOf(info.name, results, evaluation);
+  }
+  text += runtimes(evaluation);
+  for (const LeftOutProtocol& left : evaluation.left_out)
+    text += "**" + left.name + " is left out**: " + left.reason + "\n\n";
+  return text;
+}
+
+}  // namespace csom

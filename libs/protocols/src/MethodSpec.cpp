@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <csom/core/Error.h>
+#include <csom/core/SemanticMap.h>
+#include <csom/protocols/MethodSpec.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace csom {
+namespace {
+
+class EngineMapper : public Mapper {
+ public:
+  explicit EngineMapper(const Options& options) : map_(options) {}
+
+  void insert(const Scan& scan) override { map_.insert(scan); }
+
+  VoxelEstimate at(const Eigen::Vector3d& center) const override {
+    const DirichletVoxel voxel = map_.at(center);
+    if (!voxel.known()) return {};
+    const bool occupied = voxel.state() == VoxelState::Occupied;
+    return {true, voxel.occupancy(), occupied ? voxel.mostLikelyClass() : kFreeClass,
+            voxel.probabilities()};
+  }
+
+  bool hasClasses() const override { return true; }
+
+ private:
+  SemanticMap map_;
+};
+
+bool isEngineMethod(const std::string& name) {
+  Method method;
+  try {
+    parse("method", name, method);
+  } catch (const OptionError&) {
+    return false;
+  }
+  return true;
+}
+
+/// What a trial fixes for all methods.
+bool isFixed(const std::string& key) {
+  return key == "resolution" || key == "number_of_classes" || key == "unlabelled_class_id" ||
+         key == "method" || key == "threads";
+}
+
+}  // namespace
+
+std::vector<std::string> defaultMethods() {
+  return {"s-csm", "s-bki", "see-csom"};
+}
+
+MethodSpec MethodSpec::parse(const std::string& text) {
+  MethodSpec spec;
+  spec.text = text;
+  std::istringstream parts(text);
+  std::getline(parts, spec.name, ':');
+  if (!isEngineMethod(spec.name)) {
+    std::string known;
+    for (const std::string& name : defaultMethods()) known += (known.empty() ? "" : ", ") + name;
+    throw ConfigError("no method '" + spec.name + "'; there are " + known);
+  }
+  Options options;
+  for (std::string setting; std::getline(parts, setting, ':');) {
+    const std::size_t equals = setting.find('=');
+    const std::string key = setting.substr(0, equals);
+    if (equals == std::string::npos)
+      throw ConfigError("method '" + text + "': '" + setting + "' must be KEY=VALUE");
+    const std::string value = setting.substr(equals + 1);
+    if (isFixed(key))
+      throw ConfigError("method '" + text + "': the protocol says what " + key + " is");
+    if (!setOption(options, key, value))
+      throw ConfigError("method '" + text + "': there is no option '" + key + "'");
+    spec.settings.emplace_back(key, value);
+  }
+  return spec;
+}
+
+std::unique_ptr<Mapper> makeMapper(const MethodSpec& spec, const Options& given) {
+  Options options = given;
+  parse("method", spec.name, options.method);
+  for (const auto& [key, value] : spec.settings) setOption(options, key, value);
+  if (given.free_space == FreeSpace::None) options.free_space = FreeSpace::None;
+  return std::make_unique<EngineMapper>(options);
+}
+
+}  // namespace csom

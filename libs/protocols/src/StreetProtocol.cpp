@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <csom/core/Error.h>
+#include <csom/io/KittiReader.h>
+#include <csom/io/TrajectoryFile.h>
+#include <csom/protocols/StreetProtocol.h>
+#include <csom/rawlog/Import.h>
+
+#include <charconv>
+#include <filesystem>
+#include <stdexcept>
+
+namespace csom {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// 000012.bin has line 12 of the poses; a file not named by a number has that of its position.
+std::size_t numberOf(const fs::path& file, std::size_t position) {
+  const std::string stem = file.stem().string();
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
+  return error == std::errc() && end == stem.data() + stem.size() ? number : position;
+}
+
+class StreetFolder {
+ public:
+  StreetFolder(const std::string& folder, const LabelSet& labels)
+      : folder_(folder),
+        labels_(labels),
+        poses_file_((folder_ / "poses.txt").string()),
+        camera_poses_(readKittiPoses(poses_file_)),
+        camera_from_velodyne_(readKittiOdometryCalibration((folder_ / "calib.txt").string())) {}
+
+  StreetScan read(const fs::path& file, std::size_t position) {
+    const std::size_t number = numberOf(file, position);
+    if (number >= camera_poses_.size())
+      throw FileError(poses_file_, "has " + std::to_string(camera_poses_.size()) +
+                                       " poses, so none for " + file.string());
+    const Eigen::Isometry3d pose = camera_poses_[number] * camera_from_velodyne_;
+    StreetScan scan;
+    scan.origin = pose.translation();
+    for (const Eigen::Vector3f& point : readKittiScan(file.string()).points)
+      scan.points.push_back(pose * point.cast<double>());
+    scan.labels = classesOf(file, "labels", scan.points.size());
+    scan.predictions = classesOf(file, "predictions", scan.points.size());
+    return scan;
+  }
+
+  std::size_t unknownLabels() const { return unknown_; }
+
+ private:
+  std::vector<ClassId> classesOf(const fs::path& scan, const char* kind, std::size_t points) {
+    const fs::path file = folder_ / kind / (scan.stem().string() + ".label");
+    std::vector<ClassId> classes;
+    classes.reserve(points);
+    for (const std::uint32_t id : readKittiLabels(file.string(), points)) {
+      const LabelSet::Raw raw = labels_.classOfRaw(id);
+      if (raw.kind == LabelSet::RawKind::Unknown) ++unknown_;
+      classes.push_back(raw.kind == LabelSet::RawKind::Class ? raw.id : kFreeClass);
+    }
+    return classes;
+  }
+
+  fs::path folder_;
+  const LabelSet& labels_;
+  std::string poses_file_;
+  std::vector<Eigen::Isometry3d> camera_poses_;
+  Eigen::Isometry3d camera_from_velodyne_;
+  std::size_t unknown_ = 0;
+};
+
+}  // namespace
+
+Street readStreet(const std::string& folder, const LabelSet& labels) {
+  Street street;
+  street.labels = labels;
+  StreetFolder reader(folder, labels);
+  const auto files = detail::filesIn((fs::path(folder) / "velodyne").string(), ".bin");
+  for (std::size_t i = 0; i < files.size(); ++i) street.scans.push_back(reader.read(files[i], i));
+  if (reader.unknownLabels() > 0)
+    street.warnings.push_back(folder + ": did not use " + std::to_string(reader.unknownLabels()) +
+                              " labels that the label set '" + labels.name() + "' does not know");
+  return street;
+}
+
+std::vector<Trial> streetTrials(const Street& street, std::size_t every, double density,
+                                double resolution) {
+  if (every == 0) throw std::invalid_argument("every = 0: must be at least 1");
+  Trial trial;
+  trial.protocol = "P3";
+  trial.labels = street.labels;
+  trial.options.number_of_classes = street.labels.numberOfClasses();
+  trial.options.resolution = resolution;
+  trial.options.ds_resolution = density;
+  trial.options.free_space = FreeSpace::None;
+  LabelledCloud all;
+  for (const StreetScan& scan : street.scans) all.append({scan.points, scan.labels});
+  std::vector<Scan> scans;
+  for (std::size_t i = 0; i < street.scans.size(); i += every) {
+    const StreetScan& scan = street.scans[i];
+    scans.push_back(scanOf({scan.points, scan.predictions}, scan.origin));
+  }
+  trial.truth =
+      std::make_shared<VoxelTruth>(truthOf(all, resolution, trial.options.number_of_classes));
+  trial.points = std::make_shared<LabelledCloud>(std::move(all));
+  trial.scans = std::make_shared<std::vector<Scan>>(std::move(scans));
+  return {trial};
+}
+
+PointScore scoreOfPredictions(const Street& street) {
+  PointScore score(street.labels.numberOfClasses());
+  for (const StreetScan& scan : street.scans) {
+    for (std::size_t i = 0; i < scan.points.size(); ++i)
+      if (scan.labels[i] != kFreeClass) score.add(scan.labels[i], scan.predictions[i]);
+  }
+  return score;
+}
+
+}  // namespace csom

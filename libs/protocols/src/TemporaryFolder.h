@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A folder of its own that goes when it is left.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace csom::detail {
+
+class TemporaryFolder {
+ public:
+  /// Throws FileError.
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace csom::detail

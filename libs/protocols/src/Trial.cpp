@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <csom/protocols/Trial.h>
+#include <time.h>
+
+#include <algorithm>
+
+namespace csom {
+namespace {
+
+constexpr std::size_t kCurvePoints = 200;
+
+/// Processor time of this thread [ms].
+double threadMilliseconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return (*middle + *std::max_element(values.begin(), middle)) / 2;
+}
+
+std::optional<RocFigures> rocOf(const RocSamples& samples, double score_of_unknown) {
+  const auto curve = samples.curve(score_of_unknown);
+  if (!curve) return std::nullopt;
+  return RocFigures{curve->auc(), curve->truePositiveRateAt(0.2), curve->thinned(kCurvePoints)};
+}
+
+PointScore scorePoints(const Mapper& map, const Trial& trial) {
+  PointScore score(trial.options.number_of_classes);
+  for (std::size_t i = 0; i < trial.points->size(); ++i) {
+    const ClassId label = trial.points->labels[i];
+    if (label == kFreeClass) continue;
+    score.add(label, map.at(trial.points->points[i]));
+  }
+  return score;
+}
+
+TrialResult scored(const Mapper& map, const Trial& trial) {
+  TrialResult result;
+  result.protocol = trial.protocol;
+  result.variant = trial.variant;
+  result.classes = map.hasClasses();
+  VoxelEvaluation voxels = evaluateVoxels(map, *trial.truth);
+  result.known_share = voxels.score.voxels() == 0 ? 0.0
+                                                  : static_cast<double>(voxels.known) /
+                                                        static_cast<double>(voxels.score.voxels());
+  result.voxels = voxels.score;
+  if (trial.truth->knowsFree()) {
+    result.roc_unknown_half = rocOf(voxels.occupancy, 0.5);
+    result.roc_unknown_zero = rocOf(voxels.occupancy, 0);
+    result.calibration = voxels.calibration;
+    result.occupancy_calibration = voxels.occupancy_calibration;
+  }
+  if (trial.points && map.hasClasses()) result.points = scorePoints(map, trial);
+  return result;
+}
+
+}  // namespace
+
+std::vector<TrialResult> runTrial(const Trial& trial, const MethodSpec& method) {
+  const std::unique_ptr<Mapper> map = makeMapper(method, trial.options);
+  std::vector<TrialResult> results;
+  std::vector<double> times;
+  for (const Scan& scan : *trial.scans) {
+    const double before = threadMilliseconds();
+    map->insert(scan);
+    times.push_back(threadMilliseconds() - before);
+    const bool last = times.size() == trial.scans->size();
+    const bool checked = std::find(trial.checkpoints.begin(), trial.checkpoints.end(),
+                                   times.size()) != trial.checkpoints.end();
+    if (!checked && !(last && trial.checkpoints.empty())) continue;
+    results.push_back(scored(*map, trial));
+    results.back().method = method.text;
+    results.back().scans = times.size();
+    results.back().ms_per_scan = median(times);
+  }
+  return results;
+}
+
+}  // namespace csom
