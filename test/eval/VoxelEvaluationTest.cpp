@@ -50,6 +50,14 @@ TEST(VoxelTruth, EachCenterIsThatOfItsVoxel) {
   EXPECT_EQ(occupied[0], Eigen::Vector3d(-1.25, 1.25, 0.75));
 }
 
+TEST(VoxelTruth, KeepsOnlyWhatAnotherMapKnows) {
+  VoxelTruth truth(mapOf({{{0, 0, 0}, 0}, {{1, 0, 0}, 1}, {{2, 0, 0}, 2}}));
+  truth.keepOnly(mapOf({{{1, 0, 0}, 3}, {{2, 0, 0}, 0}, {{7, 0, 0}, 1}}));
+  EXPECT_FALSE(truth.at({0, 0, 0}));
+  EXPECT_EQ(truth.at({1, 0, 0}), 1);
+  EXPECT_EQ(truth.at({2, 0, 0}), 2);
+}
+
 TEST(VoxelTruth, OfNothingThrows) {
   EXPECT_THROW(VoxelTruth(mapOf({})), std::invalid_argument);
 }
@@ -69,6 +77,7 @@ TEST(VoxelEvaluation, ScoresClassesAndOccupancy) {
   EXPECT_EQ(evaluation.score.confusion(1, 0), 1U);  // unknown
   EXPECT_DOUBLE_EQ(evaluation.score.iou(1), 1.0 / 3);
   EXPECT_DOUBLE_EQ(evaluation.score.freeIou(), 2.0 / 3);
+  EXPECT_DOUBLE_EQ(evaluation.known_free_iou, 1.0 / 2);  // of two free ones it knows one
   EXPECT_DOUBLE_EQ(evaluation.score.geometricIou(), 2.0 / 3);
   // Scores 0.9, 0.8 | unknown: one of each | 0.2 free: 2 of 3 occupied before, 1 of 2 free with it.
   EXPECT_DOUBLE_EQ(evaluation.occupancy.curve(0.5)->auc(), 0.5 * (2.0 / 3 + 1) / 2 + 0.5);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "VoxelBoxes.h"
 
@@ -46,6 +47,14 @@ std::size_t VoxelTruth::indexOf(const VoxelIndex& v) const {
 
 void VoxelTruth::leaveOut(const VoxelIndex& voxel) {
   if (contains(voxel)) voxels_[indexOf(voxel)] = kLeftOut;
+}
+
+void VoxelTruth::keepOnly(const SemanticMap& known) {
+  std::vector<ClassId> kept(voxels_.size(), kLeftOut);
+  known.forEachVoxelInBox(box_, [&](const VoxelIndex& v, const DirichletVoxel&) {
+    kept[indexOf(v)] = voxels_[indexOf(v)];
+  });
+  voxels_ = std::move(kept);
 }
 
 std::optional<ClassId> VoxelTruth::at(const VoxelIndex& voxel) const {

@@ -74,6 +74,32 @@ Json toJson(const VoxelScore& score, const LabelSet& labels) {
   return json;
 }
 
+namespace {
+
+Json figures(const VoxelFigures& voxels, bool classes, const LabelSet& labels) {
+  Json json;
+  if (classes) {
+    json = toJson(voxels.score, labels);
+  } else {
+    addOccupancy(json, voxels.score);
+    json["accurateness_box"] = voxels.score.accuratenessBox();
+    json["voxels"] = voxels.score.voxels();
+  }
+  json["known_voxels"] = voxels.known_share;
+  json["known_free_iou"] = voxels.known_free_iou;
+  if (voxels.roc_unknown_half) addRoc(json, *voxels.roc_unknown_half, "");
+  if (voxels.roc_unknown_zero) addRoc(json, *voxels.roc_unknown_zero, "_unknown_zero");
+  if (voxels.calibration.count() > 0) {
+    json["brier"] = voxels.calibration.brier();
+    json["ece"] = voxels.calibration.expectedCalibrationError();
+    json["occupancy_brier"] = voxels.occupancy_calibration.brier();
+    json["occupancy_ece"] = voxels.occupancy_calibration.expectedCalibrationError();
+  }
+  return json;
+}
+
+}  // namespace
+
 Json toJson(const PointScore& score, const LabelSet& labels) {
   Json json;
   json["miou_points"] = score.meanIou();
@@ -97,23 +123,9 @@ Json toJson(const TrialResult& result, const LabelSet& labels) {
   json["variant"] = result.variant;
   json["method"] = result.method;
   json["scans"] = result.scans;
-  if (result.classes) {
-    json.update(toJson(result.voxels, labels));
-  } else {
-    addOccupancy(json, result.voxels);
-    json["accurateness_box"] = result.voxels.accuratenessBox();
-    json["voxels"] = result.voxels.voxels();
-  }
-  json["known_voxels"] = result.known_share;
-  if (result.roc_unknown_half) addRoc(json, *result.roc_unknown_half, "");
-  if (result.roc_unknown_zero) addRoc(json, *result.roc_unknown_zero, "_unknown_zero");
-  if (result.calibration.count() > 0) {
-    json["brier"] = result.calibration.brier();
-    json["ece"] = result.calibration.expectedCalibrationError();
-    json["occupancy_brier"] = result.occupancy_calibration.brier();
-    json["occupancy_ece"] = result.occupancy_calibration.expectedCalibrationError();
-  }
+  json.update(figures(result.voxels, result.classes, labels));
   if (result.points) json.update(toJson(*result.points, labels));
+  if (result.seen) json["seen"] = figures(*result.seen, result.classes, labels);
   json["ms_per_scan"] = result.ms_per_scan;
   return json;
 }

@@ -57,7 +57,7 @@ std::string milliseconds(double value) {
 }
 
 std::string weightedIou(const TrialResult& result) {
-  return result.classes ? percent(result.voxels.weightedAverageIou()) : kNone;
+  return result.classes ? percent(result.voxels.score.weightedAverageIou()) : kNone;
 }
 
 /// A row a method, a column for each value of `column`.
@@ -97,11 +97,11 @@ std::string pointCloudDetails(const Results& results, bool with_variant) {
       row.push_back(there ? text : kNone);
     };
     add(true, weightedIou(*r));
-    add(true, percent(r->voxels.geometricIou()));
-    add(true, percent(r->voxels.geometricPrecision()));
-    add(true, percent(r->voxels.geometricRecall()));
-    add(r->classes, percent(r->voxels.accuratenessOccupied()));
-    add(true, percent(r->voxels.accuratenessBox()));
+    add(true, percent(r->voxels.score.geometricIou()));
+    add(true, percent(r->voxels.score.geometricPrecision()));
+    add(true, percent(r->voxels.score.geometricRecall()));
+    add(r->classes, percent(r->voxels.score.accuratenessOccupied()));
+    add(true, percent(r->voxels.score.accuratenessBox()));
     const bool points = r->points.has_value();
     add(points, points ? percent(r->points->meanIou()) : "");
     add(points, points ? percent(r->points->accuracy()) : "");
@@ -114,35 +114,46 @@ std::string pointCloudDetails(const Results& results, bool with_variant) {
   return table.text();
 }
 
-std::string exactDetails(const Results& results, bool with_variant) {
+/// Scores against an exact truth: of all its voxels or of those that were seen.
+std::string exactDetails(const Results& results, bool with_variant,
+                         const VoxelFigures& (*of)(const TrialResult&)) {
   std::vector<std::string> header{"method"};
   if (with_variant) header.push_back("variant");
   for (const char* name :
        {"AUC", "TPR@0.2", "AUC unkn. 0", "TPR@0.2 unkn. 0", "ECE", "Brier", "occ. ECE", "w-avg IoU",
-        "F1", "occ. F1", "accuracy", "free IoU", "occ. IoU", "known", "ms/scan"})
+        "F1", "occ. F1", "accuracy", "free IoU", "known free IoU", "occ. IoU", "known", "ms/scan"})
     header.push_back(name);
   MarkdownTable table(header);
   for (const TrialResult* r : results) {
+    const VoxelFigures& voxels = of(*r);
     std::vector<std::string> row{r->method};
     if (with_variant) row.push_back(r->variant);
-    for (const auto* roc : {&r->roc_unknown_half, &r->roc_unknown_zero}) {
+    for (const auto* roc : {&voxels.roc_unknown_half, &voxels.roc_unknown_zero}) {
       row.push_back(*roc ? three((*roc)->auc) : kNone);
       row.push_back(*roc ? three((*roc)->tpr_at_fpr_02) : kNone);
     }
-    row.push_back(three(r->calibration.expectedCalibrationError()));
-    row.push_back(three(r->calibration.brier()));
-    row.push_back(three(r->occupancy_calibration.expectedCalibrationError()));
-    row.push_back(weightedIou(*r));
-    row.push_back(r->classes ? percent(r->voxels.macroF1()) : kNone);
-    row.push_back(percent(r->voxels.geometricF1()));
-    row.push_back(percent(r->voxels.accuratenessBox()));
-    row.push_back(percent(r->voxels.freeIou()));
-    row.push_back(percent(r->voxels.geometricIou()));
-    row.push_back(percent(r->known_share));
+    row.push_back(three(voxels.calibration.expectedCalibrationError()));
+    row.push_back(three(voxels.calibration.brier()));
+    row.push_back(three(voxels.occupancy_calibration.expectedCalibrationError()));
+    row.push_back(r->classes ? percent(voxels.score.weightedAverageIou()) : kNone);
+    row.push_back(r->classes ? percent(voxels.score.macroF1()) : kNone);
+    row.push_back(percent(voxels.score.geometricF1()));
+    row.push_back(percent(voxels.score.accuratenessBox()));
+    row.push_back(percent(voxels.score.freeIou()));
+    row.push_back(percent(voxels.known_free_iou));
+    row.push_back(percent(voxels.score.geometricIou()));
+    row.push_back(percent(voxels.known_share));
     row.push_back(milliseconds(r->ms_per_scan));
     table.add(row);
   }
   return table.text();
+}
+
+const VoxelFigures& allVoxels(const TrialResult& result) {
+  return result.voxels;
+}
+const VoxelFigures& seenVoxels(const TrialResult& result) {
+  return result.seen ? *result.seen : result.voxels;
 }
 
 std::string variantOf(const TrialResult& result) {
@@ -181,29 +192,34 @@ std::string street(const Results& results, const std::optional<PointScore>& pred
 std::string structuredRoom(const Results& results) {
   MarkdownTable table({"method", "AUC", "paper", "TPR@0.2", "paper"});
   for (const TrialResult* r : results) {
-    const auto& roc = r->roc_unknown_half;
+    const auto& roc = r->voxels.roc_unknown_half;
     table.add({r->method, roc ? three(roc->auc) : kNone,
                published(detail::kPaper, "P4", "", r->method, "auc", three),
                roc ? three(roc->tpr_at_fpr_02) : kNone,
                published(detail::kPaper, "P4", "", r->method, "tpr_at_fpr_0.2", three)});
   }
   return "Unknown voxels score 0.5:\n\n" + table.text() + "All scores:\n\n" +
-         exactDetails(results, false);
+         exactDetails(results, false, allVoxels);
 }
 
 std::string robot(const Results& results) {
-  MarkdownTable table({"method", "variant", "F1", "accuracy", "free IoU", "occ. IoU", "ms/scan"});
-  for (const TrialResult* r : results)
-    table.add({r->method, r->variant,
-               percent(r->classes ? r->voxels.macroF1() : r->voxels.geometricF1()),
-               percent(r->voxels.accuratenessBox()), percent(r->voxels.freeIou()),
-               percent(r->voxels.geometricIou()), milliseconds(r->ms_per_scan)});
+  MarkdownTable table(
+      {"method", "variant", "F1", "occ. F1", "accuracy", "known free IoU", "occ. IoU", "ms/scan"});
+  for (const TrialResult* r : results) {
+    const VoxelFigures& voxels = seenVoxels(*r);
+    table.add({r->method, r->variant, r->classes ? percent(voxels.score.macroF1()) : kNone,
+               percent(voxels.score.geometricF1()), percent(voxels.score.accuratenessBox()),
+               percent(voxels.known_free_iou), percent(voxels.score.geometricIou()),
+               milliseconds(r->ms_per_scan)});
+  }
   const auto paper = [](const char* metric) {
     return published(detail::kPaper, "P5", "", "see-csom", metric, percent);
   };
-  table.add({"see-csom, paper", "other data", paper("macro_f1"), kNone, paper("free_iou"),
+  table.add({"see-csom, paper", "its robot", paper("macro_f1"), kNone, kNone, paper("free_iou"),
              paper("geometric_iou"), kNone});
-  return table.text() + "All scores:\n\n" + exactDetails(results, true);
+  return "Over the voxels that a beam of the input reaches, with true poses:\n\n" + table.text() +
+         "All scores over these voxels:\n\n" + exactDetails(results, true, seenVoxels) +
+         "All scores over all voxels of the world:\n\n" + exactDetails(results, true, allVoxels);
 }
 
 std::string repetition(const Results& results) {

@@ -41,12 +41,21 @@ class LogAsScans {
           *scan, [this](double time) { return poses_.at(time); }, statistics);
     }
     auto adapted = adapter_->adapt(still ? *still : observation, roundedPose(*pose), rules_);
-    if (adapted) take(std::move(*adapted));
+    if (adapted) take(*adapted);
   }
 
-  void take(std::vector<AdaptedScan> adapted) {
-    for (AdaptedScan& scan : adapted)
-      if (!scan.scan.points.empty()) scans_.push_back(std::move(scan.scan));
+  void take(const std::vector<AdaptedScan>& adapted) {
+    for (const AdaptedScan& given : adapted) {
+      Scan scan;
+      scan.origin = given.scan.origin;
+      for (std::size_t i = 0; i < given.scan.points.size(); ++i) {
+        // A pixel that shows nothing says nothing of a point: what was hit is not free.
+        if (given.scan.labels[i] == kFreeClass) continue;
+        scan.points.push_back(given.scan.points[i]);
+        scan.labels.push_back(given.scan.labels[i]);
+      }
+      if (!scan.points.empty()) scans_.push_back(std::move(scan));
+    }
   }
 
   RawlogSurvey survey_;

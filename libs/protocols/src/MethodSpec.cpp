@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csom/core/Error.h>
-#include <csom/core/SemanticMap.h>
+#include <csom/eval/CsomMapper.h>
 #include <csom/protocols/MethodSpec.h>
 
 #include <algorithm>
@@ -8,26 +8,6 @@
 
 namespace csom {
 namespace {
-
-class EngineMapper : public Mapper {
- public:
-  explicit EngineMapper(const Options& options) : map_(options) {}
-
-  void insert(const Scan& scan) override { map_.insert(scan); }
-
-  VoxelEstimate at(const Eigen::Vector3d& center) const override {
-    const DirichletVoxel voxel = map_.at(center);
-    if (!voxel.known()) return {};
-    const bool occupied = voxel.state() == VoxelState::Occupied;
-    return {true, voxel.occupancy(), occupied ? voxel.mostLikelyClass() : kFreeClass,
-            voxel.probabilities()};
-  }
-
-  bool hasClasses() const override { return true; }
-
- private:
-  SemanticMap map_;
-};
 
 bool isEngineMethod(const std::string& name) {
   Method method;
@@ -82,7 +62,7 @@ std::unique_ptr<Mapper> makeMapper(const MethodSpec& spec, const Options& given)
   parse("method", spec.name, options.method);
   for (const auto& [key, value] : spec.settings) setOption(options, key, value);
   if (given.free_space == FreeSpace::None) options.free_space = FreeSpace::None;
-  return std::make_unique<EngineMapper>(options);
+  return std::make_unique<CsomMapper>(options);
 }
 
 }  // namespace csom

@@ -44,6 +44,35 @@ std::shared_ptr<const std::vector<Scan>> scansOf(const std::string& rawlog,
       readLoggedScans(rawlog, scenario.world.labels(), reading));
 }
 
+/// Odometry knows no other start than the origin: the scans as if it had begun where the robot did.
+std::shared_ptr<const std::vector<Scan>> movedToStart(const std::vector<Scan>& scans,
+                                                      const Scenario& scenario) {
+  const PlanarPose start = scenario.path.at(0);
+  const Eigen::Matrix3d rotation =
+      Eigen::AngleAxisd(start.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  auto moved = std::make_shared<std::vector<Scan>>(scans);
+  for (Scan& scan : *moved) {
+    scan.origin = rotation * scan.origin + Eigen::Vector3d(start.x, start.y, 0);
+    for (Eigen::Vector3f& point : scan.points)
+      point = (rotation * point.cast<double>()).cast<float>();
+  }
+  return moved;
+}
+
+/// Without the voxels that no beam crosses or ends in.
+std::shared_ptr<const VoxelTruth> seenOf(const Trial& trial, const std::vector<Scan>& scans) {
+  Options options;
+  options.number_of_classes = trial.options.number_of_classes;
+  options.resolution = trial.options.resolution;
+  options.method = Method::SCsm;
+  options.free_space = FreeSpace::Raycast;
+  SemanticMap beams(options);
+  for (const Scan& scan : scans) beams.insert(scan);
+  auto seen = std::make_shared<VoxelTruth>(*trial.truth);
+  seen->keepOnly(beams);
+  return seen;
+}
+
 LabelOptions camerasOf(const Scenario& scenario) {
   LabelOptions options;
   for (const SensorModel& sensor : scenario.sensors) {
@@ -82,17 +111,19 @@ std::vector<Trial> robotTrials(const Scenario& scenario) {
   const std::string rawlog = folder.file("drive.rawlog");
   simulateRawlog(scenario, rawlog);
   const Trial trial = simulatedTrial("P5", scenario);
-  const std::vector<std::pair<std::string, PoseChoice>> variants{
-      {"true poses", {PoseChoice::Kind::RobotPose, kTruthPoseLabel}},
-      {"odometry", {PoseChoice::Kind::Odometry, ""}}};
-  std::vector<Trial> trials;
-  for (const auto& [variant, poses] : variants) {
-    reading.poses = poses;
-    trials.push_back(trial);
-    trials.back().variant = variant;
-    trials.back().scans = scansOf(rawlog, scenario, reading);
-  }
-  return trials;
+
+  Trial with_true_poses = trial;
+  with_true_poses.variant = "true poses";
+  reading.poses = {PoseChoice::Kind::RobotPose, kTruthPoseLabel};
+  with_true_poses.scans = scansOf(rawlog, scenario, reading);
+  with_true_poses.seen_truth = seenOf(trial, *with_true_poses.scans);
+
+  Trial with_odometry = trial;
+  with_odometry.variant = "odometry";
+  reading.poses = {PoseChoice::Kind::Odometry, ""};
+  with_odometry.scans = movedToStart(*scansOf(rawlog, scenario, reading), scenario);
+  with_odometry.seen_truth = with_true_poses.seen_truth;
+  return {with_true_poses, with_odometry};
 }
 
 }  // namespace csom

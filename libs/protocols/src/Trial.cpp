@@ -40,22 +40,29 @@ PointScore scorePoints(const Mapper& map, const Trial& trial) {
   return score;
 }
 
+VoxelFigures figuresOf(const Mapper& map, const VoxelTruth& truth) {
+  const VoxelEvaluation voxels = evaluateVoxels(map, truth);
+  VoxelFigures figures;
+  figures.score = voxels.score;
+  if (voxels.score.voxels() > 0)
+    figures.known_share =
+        static_cast<double>(voxels.known) / static_cast<double>(voxels.score.voxels());
+  figures.known_free_iou = voxels.known_free_iou;
+  if (!truth.knowsFree()) return figures;
+  figures.roc_unknown_half = rocOf(voxels.occupancy, 0.5);
+  figures.roc_unknown_zero = rocOf(voxels.occupancy, 0);
+  figures.calibration = voxels.calibration;
+  figures.occupancy_calibration = voxels.occupancy_calibration;
+  return figures;
+}
+
 TrialResult scored(const Mapper& map, const Trial& trial) {
   TrialResult result;
   result.protocol = trial.protocol;
   result.variant = trial.variant;
   result.classes = map.hasClasses();
-  VoxelEvaluation voxels = evaluateVoxels(map, *trial.truth);
-  result.known_share = voxels.score.voxels() == 0 ? 0.0
-                                                  : static_cast<double>(voxels.known) /
-                                                        static_cast<double>(voxels.score.voxels());
-  result.voxels = voxels.score;
-  if (trial.truth->knowsFree()) {
-    result.roc_unknown_half = rocOf(voxels.occupancy, 0.5);
-    result.roc_unknown_zero = rocOf(voxels.occupancy, 0);
-    result.calibration = voxels.calibration;
-    result.occupancy_calibration = voxels.occupancy_calibration;
-  }
+  result.voxels = figuresOf(map, *trial.truth);
+  if (trial.seen_truth) result.seen = figuresOf(map, *trial.seen_truth);
   if (trial.points && map.hasClasses()) result.points = scorePoints(map, trial);
   return result;
 }

@@ -14,6 +14,9 @@ struct VoxelEvaluation {
   /// Classes of the truth; free and occupied alone for a mapper without classes.
   VoxelScore score;
   std::size_t known = 0;  ///< voxels of the truth that the map knows
+  /// TP/(TP+FP+FN) of the voxels that the map knows to be free: score.freeIou() counts the unknown
+  /// among them.
+  double known_free_iou = 0;
   // Only where the truth knows free voxels:
   RocSamples occupancy;               ///< probability that a voxel is occupied
   Calibration calibration;            ///< of λ, over the known voxels

@@ -24,6 +24,8 @@ class VoxelTruth {
 
   /// Leaves a voxel out, whatever is known of it; nothing happens beyond the box.
   void leaveOut(const VoxelIndex& voxel);
+  /// Leaves out all voxels that this map, of the same grid, does not know.
+  void keepOnly(const SemanticMap& known);
 
   const Grid& grid() const { return grid_; }
   int numberOfClasses() const { return classes_; }

@@ -26,6 +26,8 @@ struct Trial {
   Options options;
   std::shared_ptr<const std::vector<Scan>> scans;
   std::shared_ptr<const VoxelTruth> truth;
+  /// The same without the voxels that no beam of the input reached; null: not scored apart.
+  std::shared_ptr<const VoxelTruth> seen_truth;
   std::shared_ptr<const LabelledCloud> points;  ///< with true labels; null: points are not scored
   /// Numbers of scans after which the map is scored, ascending; empty: after the last one.
   std::vector<std::size_t> checkpoints;
@@ -37,6 +39,18 @@ struct RocFigures {
   std::vector<RocPoint> curve;  ///< thinned for plots
 };
 
+/// Scores over the voxels of one truth.
+struct VoxelFigures {
+  VoxelScore score{ConfusionMatrix(2)};
+  double known_share = 0;     ///< of the voxels of the truth
+  double known_free_iou = 0;  ///< see VoxelEvaluation
+  // Only where the truth knows free voxels:
+  std::optional<RocFigures> roc_unknown_half;  ///< unknown voxels score 0.5
+  std::optional<RocFigures> roc_unknown_zero;  ///< unknown voxels score 0
+  Calibration calibration;
+  Calibration occupancy_calibration;
+};
+
 /// Scores of one method after some of the scans of a trial.
 struct TrialResult {
   std::string protocol;
@@ -44,14 +58,8 @@ struct TrialResult {
   std::string method;
   bool classes = true;    ///< false: the method knows occupancy alone
   std::size_t scans = 0;  ///< inserted so far
-  VoxelScore voxels{ConfusionMatrix(2)};
-  double known_share = 0;  ///< of the voxels of the truth
-  // Only where the truth knows free voxels:
-  std::optional<RocFigures> roc_unknown_half;  ///< unknown voxels score 0.5
-  std::optional<RocFigures> roc_unknown_zero;  ///< unknown voxels score 0
-  Calibration calibration;
-  Calibration occupancy_calibration;
-
+  VoxelFigures voxels;
+  std::optional<VoxelFigures> seen;  ///< over the trial's seen_truth
   std::optional<PointScore> points;  ///< of a method with classes, where points are scored
   /// Median time of an insertion so far [ms]: of one thread's processor, so that what else runs
   /// does not count.
