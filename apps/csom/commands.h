@@ -16,6 +16,8 @@ void addMergeCommand(CLI::App& program);
 void addEvalCommand(CLI::App& program);
 /// Below `csom eval`.
 void addEvalCameraCommand(CLI::App& eval);
+void addEvalPointsCommand(CLI::App& eval);
+void addEvalRocCommand(CLI::App& eval);
 void addEvalRunCommand(CLI::App& eval);
 void addExportCommand(CLI::App& program);
 

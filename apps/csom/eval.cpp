@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // csom eval: how well a map, or what makes one, agrees with the truth.
-#include <csom/core/Error.h>
 #include <csom/eval/VoxelScore.h>
-#include <csom/io/MapFile.h>
 #include <csom/io/TextParser.h>
+#include <csom/protocols/EvaluationJson.h>
 
 #include <cstdio>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
+#include "MapWithTruth.h"
 #include "Output.h"
 #include "commands.h"
 
@@ -23,24 +22,6 @@ struct EvalArguments {
   bool json = false;
 };
 
-void printAsJson(const VoxelScore& score, const LabelSet& labels) {
-  Json json;
-  json["w_average_iou"] = score.weightedAverageIou();
-  json["iou"] = Json::object();
-  for (int i = 1; i < score.numberOfClasses(); ++i) {
-    const auto k = static_cast<ClassId>(i);
-    if (score.truthCount(k) + score.predictedCount(k) > 0)
-      json["iou"][labels.at(k).name] = score.iou(k);
-  }
-  json["geometric_iou"] = score.geometricIou();
-  json["precision"] = score.geometricPrecision();
-  json["recall"] = score.geometricRecall();
-  json["accurateness"] = score.accuratenessOccupied();
-  json["accurateness_box"] = score.accuratenessBox();
-  json["voxels"] = score.voxels();
-  printJson(json);
-}
-
 void printAsText(const VoxelScore& score, const LabelSet& labels) {
   const auto percent = [](double share) { return 100 * share; };
   std::printf("w-average IoU         %6.2f %%\n", percent(score.weightedAverageIou()));
@@ -51,40 +32,25 @@ void printAsText(const VoxelScore& score, const LabelSet& labels) {
               percent(score.accuratenessOccupied()));
   std::printf("accurateness          %6.2f %%  of all %zu voxels\n\n",
               percent(score.accuratenessBox()), score.voxels());
-  std::printf("  %-20s %10s %10s %8s %10s %8s\n", "class", "true", "mapped", "IoU", "precision",
-              "recall");
+  std::printf("  %-20s %10s %10s %8s %10s %8s %8s\n", "class", "true", "mapped", "IoU",
+              "precision", "recall", "F1");
   for (int i = 1; i < score.numberOfClasses(); ++i) {
     const auto k = static_cast<ClassId>(i);
     if (score.truthCount(k) + score.predictedCount(k) == 0) continue;
-    std::printf("  %-20s %10zu %10zu %8.2f %10.2f %8.2f\n",
+    std::printf("  %-20s %10zu %10zu %8.2f %10.2f %8.2f %8.2f\n",
                 detail::printable(labels.at(k).name).c_str(), score.truthCount(k),
                 score.predictedCount(k), percent(score.iou(k)), percent(score.precision(k)),
-                percent(score.recall(k)));
-  }
-}
-
-VoxelScore scoreOf(const MapDocument& map, const MapDocument& truth,
-                   const EvalArguments& arguments) {
-  try {
-    return VoxelScore(map.map, truth.map);
-  } catch (const std::invalid_argument& error) {
-    throw FileError(arguments.map,
-                    std::string("scored against ") + arguments.truth + ": " + error.what());
+                percent(score.recall(k)), percent(score.f1(k)));
   }
 }
 
 void runEvalVoxels(const EvalArguments& arguments) {
-  const MapDocument map = loadMap(arguments.map);
-  const MapDocument truth = loadMap(arguments.truth);
-  if (map.labels != truth.labels)
-    throw ConfigError(arguments.map + " and " + arguments.truth + " have different label sets (" +
-                      detail::quoted(map.labels.name()) + ", " +
-                      detail::quoted(truth.labels.name()) + "): use one for both");
-  const VoxelScore score = scoreOf(map, truth, arguments);
+  const MapWithTruth both = loadMapWithTruth(arguments.map, arguments.truth);
+  const VoxelScore score(both.map.map, both.truth.map);
   if (arguments.json)
-    printAsJson(score, truth.labels);
+    printJson(toJson(score, both.truth.labels));
   else
-    printAsText(score, truth.labels);
+    printAsText(score, both.truth.labels);
 }
 
 }  // namespace
@@ -96,7 +62,7 @@ void addEvalCommand(CLI::App& program) {
   CLI::App* voxels = eval->add_subcommand("voxels", "Voxel by voxel, against a map of the truth");
   voxels->description(
       "Scores a map against the truth, voxel by voxel: IoU of each class, their average weighted\n"
-      "by frequency, and occupied against not. The truth is a map too: 'csom simulate --truth'\n"
+      "by frequency, and occupied against not. JSON has the confusion matrix too. The truth is a map too: 'csom simulate --truth'\n"
       "writes the exact one of a simulated world; of a labelled data set it is the map of all\n"
       "points made by the same ini with 'method = s-csm' and 'ds_resolution = 0', the majority\n"
       "class of the points in each voxel.");
@@ -109,6 +75,8 @@ void addEvalCommand(CLI::App& program) {
       "  csom map room.rawlog -c config/room.ini -o out\n"
       "  csom eval voxels --map out/map.csom --truth truth.csom");
   voxels->callback([arguments] { runEvalVoxels(*arguments); });
+  addEvalPointsCommand(*eval);
+  addEvalRocCommand(*eval);
   addEvalCameraCommand(*eval);
   addEvalRunCommand(*eval);
 }

@@ -2,17 +2,16 @@
 // csom eval camera: how well points take their labels from a camera, in a simulated world.
 #include <csom/core/Error.h>
 #include <csom/eval/Scenario.h>
+#include <csom/io/TemporaryFolder.h>
 #include <csom/io/TextParser.h>
 #include <csom/rawlog/CameraLabelScore.h>
 #include <csom/rawlog/Simulation.h>
 #include <csom/report/Format.h>
-#include <stdlib.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 
 #include "Output.h"
 #include "Progress.h"
@@ -26,28 +25,6 @@ struct EvalCameraArguments {
   std::string rawlog;
   PointLabellingOptions labelling;
   bool json = false;
-};
-
-/// A folder of its own that goes when it is left.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string path = (std::filesystem::temp_directory_path() / "csom-XXXXXX").string();
-    if (mkdtemp(path.data()) == nullptr)
-      throw FileError(path, "a temporary folder cannot be made there; set TMPDIR to another place");
-    path_ = path;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
 };
 
 CameraLabelScore simulateAndScore(const Scenario& scenario,

@@ -30,27 +30,13 @@ struct Run {
   MethodSpec method;
 };
 
-bool holdsFiles(const fs::path& folder, const char* extension) {
-  std::error_code error;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (at->path().extension() == extension) return true;
-  return false;
-}
-
 /// The room or street of a data folder: itself, or the one of the usual name in it.
-std::string folderOf(const std::string& data, bool (*is_it)(const fs::path&), const char* name) {
+std::string folderOf(const std::string& data, bool (*is_it)(const std::string&), const char* name) {
   if (data.empty())
     throw FileError(name, "no folder of data is given (--data or the environment's CSOM_DATA)");
   for (const fs::path& folder : {fs::path(data), fs::path(data) / name})
-    if (is_it(folder)) return folder.string();
+    if (is_it(folder.string())) return folder.string();
   throw FileError(data, std::string("is no such data, and neither is ") + name + " in it");
-}
-
-bool isRoom(const fs::path& folder) {
-  return holdsFiles(folder, ".pcd");
-}
-bool isStreet(const fs::path& folder) {
-  return fs::is_directory(folder / "velodyne");
 }
 
 /// Worlds are installed beside the label sets.

@@ -37,4 +37,11 @@ VoxelTruth truthOf(const LabelledCloud& cloud, double resolution, int number_of_
   return truth;
 }
 
+PointScore scorePoints(const Mapper& map, const LabelledCloud& cloud, int number_of_classes) {
+  PointScore score(number_of_classes);
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (cloud.labels[i] != kFreeClass) score.add(cloud.labels[i], map.at(cloud.points[i]));
+  return score;
+}
+
 }  // namespace csom

@@ -6,6 +6,7 @@
 #include <csom/rawlog/Import.h>
 
 #include <cstdio>
+#include <filesystem>
 
 namespace csom {
 namespace {
@@ -16,12 +17,6 @@ std::string inMetres(const char* what, double value) {
   return text;
 }
 
-LabelledCloud everything(const Room& room) {
-  LabelledCloud all;
-  for (const LabelledCloud& cloud : room.clouds) all.append(cloud);
-  return all;
-}
-
 Trial roomTrial(const std::string& protocol, const Room& room, double resolution) {
   Trial trial;
   trial.protocol = protocol;
@@ -29,7 +24,7 @@ Trial roomTrial(const std::string& protocol, const Room& room, double resolution
   trial.options.number_of_classes = room.labels.numberOfClasses();
   trial.options.resolution = resolution;
   trial.options.free_space = FreeSpace::None;
-  const auto all = std::make_shared<LabelledCloud>(everything(room));
+  const auto all = std::make_shared<LabelledCloud>(labelledPoints(room));
   trial.points = all;
   trial.truth =
       std::make_shared<VoxelTruth>(truthOf(*all, resolution, trial.options.number_of_classes));
@@ -47,6 +42,14 @@ std::vector<Trial> atDensities(const Trial& trial, const std::vector<double>& de
 }
 
 }  // namespace
+
+bool isRoom(const std::string& folder) {
+  std::error_code error;
+  for (std::filesystem::directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error))
+    if (at->path().extension() == ".pcd") return true;
+  return false;
+}
 
 Room readRoom(const std::string& folder, const LabelSet& labels) {
   Room room;
@@ -76,6 +79,12 @@ Room readRoom(const std::string& folder, const LabelSet& labels) {
                             " points with labels that the label set '" + labels.name() +
                             "' does not know");
   return room;
+}
+
+LabelledCloud labelledPoints(const Room& room) {
+  LabelledCloud all;
+  for (const LabelledCloud& cloud : room.clouds) all.append(cloud);
+  return all;
 }
 
 std::vector<Trial> roomDensityTrials(const Room& room, const std::vector<double>& densities,

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csom/core/Error.h>
 #include <csom/eval/GroundTruth.h>
+#include <csom/io/TemporaryFolder.h>
 #include <csom/protocols/LoggedScans.h>
 #include <csom/protocols/SimulatedProtocols.h>
 #include <csom/rawlog/Simulation.h>
 
 #include <stdexcept>
 #include <utility>
-
-#include "TemporaryFolder.h"
 
 namespace csom {
 namespace {
@@ -92,7 +91,7 @@ LabelOptions camerasOf(const Scenario& scenario) {
 }  // namespace
 
 std::vector<Trial> structuredRoomTrials(const Scenario& scenario) {
-  const detail::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string rawlog = folder.file("room.rawlog");
   simulateRawlog(scenario, rawlog);
   Trial trial = simulatedTrial("P4", scenario);
@@ -107,7 +106,7 @@ std::vector<Trial> robotTrials(const Scenario& scenario) {
   LogReading reading;
   reading.point_labels = PointLabels::None;
   reading.label_options = camerasOf(scenario);
-  const detail::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string rawlog = folder.file("drive.rawlog");
   simulateRawlog(scenario, rawlog);
   const Trial trial = simulatedTrial("P5", scenario);

@@ -24,8 +24,9 @@ std::size_t numberOf(const fs::path& file, std::size_t position) {
 
 class StreetFolder {
  public:
-  StreetFolder(const std::string& folder, const LabelSet& labels)
+  StreetFolder(const std::string& folder, const LabelSet& labels, bool predictions)
       : folder_(folder),
+        predictions_(predictions),
         labels_(labels),
         poses_file_((folder_ / "poses.txt").string()),
         camera_poses_(readKittiPoses(poses_file_)),
@@ -42,7 +43,7 @@ class StreetFolder {
     for (const Eigen::Vector3f& point : readKittiScan(file.string()).points)
       scan.points.push_back(pose * point.cast<double>());
     scan.labels = classesOf(file, "labels", scan.points.size());
-    scan.predictions = classesOf(file, "predictions", scan.points.size());
+    if (predictions_) scan.predictions = classesOf(file, "predictions", scan.points.size());
     return scan;
   }
 
@@ -62,6 +63,7 @@ class StreetFolder {
   }
 
   fs::path folder_;
+  bool predictions_;
   const LabelSet& labels_;
   std::string poses_file_;
   std::vector<Eigen::Isometry3d> camera_poses_;
@@ -71,16 +73,27 @@ class StreetFolder {
 
 }  // namespace
 
-Street readStreet(const std::string& folder, const LabelSet& labels) {
+bool isStreet(const std::string& folder) {
+  std::error_code error;
+  return fs::is_directory(fs::path(folder) / "velodyne", error);
+}
+
+Street readStreet(const std::string& folder, const LabelSet& labels, bool predictions) {
   Street street;
   street.labels = labels;
-  StreetFolder reader(folder, labels);
+  StreetFolder reader(folder, labels, predictions);
   const auto files = detail::filesIn((fs::path(folder) / "velodyne").string(), ".bin");
   for (std::size_t i = 0; i < files.size(); ++i) street.scans.push_back(reader.read(files[i], i));
   if (reader.unknownLabels() > 0)
     street.warnings.push_back(folder + ": did not use " + std::to_string(reader.unknownLabels()) +
                               " labels that the label set '" + labels.name() + "' does not know");
   return street;
+}
+
+LabelledCloud labelledPoints(const Street& street) {
+  LabelledCloud all;
+  for (const StreetScan& scan : street.scans) all.append({scan.points, scan.labels});
+  return all;
 }
 
 std::vector<Trial> streetTrials(const Street& street, std::size_t every, double density,
@@ -93,8 +106,7 @@ std::vector<Trial> streetTrials(const Street& street, std::size_t every, double 
   trial.options.resolution = resolution;
   trial.options.ds_resolution = density;
   trial.options.free_space = FreeSpace::None;
-  LabelledCloud all;
-  for (const StreetScan& scan : street.scans) all.append({scan.points, scan.labels});
+  LabelledCloud all = labelledPoints(street);
   std::vector<Scan> scans;
   for (std::size_t i = 0; i < street.scans.size(); i += every) {
     const StreetScan& scan = street.scans[i];

@@ -30,16 +30,6 @@ std::optional<RocFigures> rocOf(const RocSamples& samples, double score_of_unkno
   return RocFigures{curve->auc(), curve->truePositiveRateAt(0.2), curve->thinned(kCurvePoints)};
 }
 
-PointScore scorePoints(const Mapper& map, const Trial& trial) {
-  PointScore score(trial.options.number_of_classes);
-  for (std::size_t i = 0; i < trial.points->size(); ++i) {
-    const ClassId label = trial.points->labels[i];
-    if (label == kFreeClass) continue;
-    score.add(label, map.at(trial.points->points[i]));
-  }
-  return score;
-}
-
 VoxelFigures figuresOf(const Mapper& map, const VoxelTruth& truth) {
   const VoxelEvaluation voxels = evaluateVoxels(map, truth);
   VoxelFigures figures;
@@ -63,7 +53,8 @@ TrialResult scored(const Mapper& map, const Trial& trial) {
   result.classes = map.hasClasses();
   result.voxels = figuresOf(map, *trial.truth);
   if (trial.seen_truth) result.seen = figuresOf(map, *trial.seen_truth);
-  if (trial.points && map.hasClasses()) result.points = scorePoints(map, trial);
+  if (trial.points && map.hasClasses())
+    result.points = scorePoints(map, *trial.points, trial.options.number_of_classes);
   return result;
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <csom/core/types.h>
+#include <csom/eval/Mapper.h>
+#include <csom/eval/PointScore.h>
 #include <csom/eval/VoxelTruth.h>
 
 #include <Eigen/Core>
@@ -32,5 +34,8 @@ Scan scanOf(const LabelledCloud& cloud, const Eigen::Vector3d& origin);
 /// points but no labelled one are left out. Throws std::invalid_argument if there is no labelled
 /// point.
 VoxelTruth truthOf(const LabelledCloud& cloud, double resolution, int number_of_classes);
+
+/// What a map says of the labelled points.
+PointScore scorePoints(const Mapper& map, const LabelledCloud& cloud, int number_of_classes);
 
 }  // namespace csom

@@ -17,9 +17,15 @@ struct Room {
   std::vector<std::string> warnings;  ///< what was left out, one line each
 };
 
+/// True for a folder with *.pcd files.
+bool isRoom(const std::string& folder);
+
 /// Reads all *.pcd files of a folder, in natural order. Rows that are no points are left out;
 /// labels that the label set does not know are not used. Both are warned of. Throws FileError.
 Room readRoom(const std::string& folder, const LabelSet& labels);
+
+/// The points of all clouds.
+LabelledCloud labelledPoints(const Room& room);
 
 /// P1: all clouds as one scan, at each of these densities [m].
 std::vector<Trial> roomDensityTrials(const Room& room, const std::vector<double>& densities,

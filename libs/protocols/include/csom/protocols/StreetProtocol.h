@@ -15,7 +15,7 @@ struct StreetScan {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the sensor
   std::vector<Eigen::Vector3d> points;
   std::vector<ClassId> labels;       ///< kFreeClass: unlabelled
-  std::vector<ClassId> predictions;  ///< kFreeClass: unlabelled
+  std::vector<ClassId> predictions;  ///< kFreeClass: unlabelled; empty: not read
 };
 
 struct Street {
@@ -24,10 +24,16 @@ struct Street {
   std::vector<std::string> warnings;  ///< what was left out, one line each
 };
 
-/// Reads a sequence in the layout of SemanticKITTI: velodyne/*.bin, labels/*.label,
+/// True for a folder with a folder velodyne/.
+bool isStreet(const std::string& folder);
+
+/// Reads a sequence in the layout of SemanticKITTI: velodyne/*.bin, labels/*.label, if asked for
 /// predictions/*.label, poses.txt and calib.txt; the map frame is that of poses.txt. Labels that
 /// the label set does not know are not used and warned of. Throws FileError.
-Street readStreet(const std::string& folder, const LabelSet& labels);
+Street readStreet(const std::string& folder, const LabelSet& labels, bool predictions = true);
+
+/// The points of all scans with their true labels.
+LabelledCloud labelledPoints(const Street& street);
 
 /// Maps the scans 0, `every`, 2·`every` … with the network's labels, down-sampled to `density` [m];
 /// the truth are the labels of all scans.

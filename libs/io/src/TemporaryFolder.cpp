@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "TemporaryFolder.h"
-
 #include <csom/core/Error.h>
+#include <csom/io/TemporaryFolder.h>
 #include <stdlib.h>
 
 #include <system_error>
 
-namespace csom::detail {
+namespace csom {
 
 TemporaryFolder::TemporaryFolder() {
   std::string path = (std::filesystem::temp_directory_path() / "csom-XXXXXX").string();
@@ -20,4 +19,4 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-}  // namespace csom::detail
+}  // namespace csom

@@ -5,8 +5,9 @@
 #include <filesystem>
 #include <string>
 
-namespace csom::detail {
+namespace csom {
 
+/// Under TMPDIR, else /tmp; removed with all that is in it.
 class TemporaryFolder {
  public:
   /// Throws FileError.
@@ -21,4 +22,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace csom::detail
+}  // namespace csom
