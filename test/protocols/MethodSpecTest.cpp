@@ -32,6 +32,7 @@ TEST(MethodSpec, ErrorsNameWhatIsWrong) {
   EXPECT_THAT(parseErrorOf("s-bki:kernel_length"), HasSubstr("'kernel_length' must be KEY=VALUE"));
   EXPECT_THAT(parseErrorOf("s-bki:magic=1"), HasSubstr("there is no option 'magic'"));
   EXPECT_THAT(parseErrorOf("s-bki:kernel_length=long"), HasSubstr("kernel_length"));
+  EXPECT_THAT(parseErrorOf("octomap:kernel=linear"), HasSubstr("octomap has no options"));
   EXPECT_THAT(parseErrorOf("s-bki:resolution=1"), HasSubstr("the protocol says"));
 }
 

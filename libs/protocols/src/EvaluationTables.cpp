@@ -2,6 +2,7 @@
 #include <csom/protocols/EvaluationTables.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 
 #include "MarkdownTable.h"
@@ -22,6 +23,14 @@ Results resultsOf(const Evaluation& evaluation, std::string_view protocol) {
   Results found;
   for (const TrialResult& result : evaluation.results)
     if (result.protocol == protocol) found.push_back(&result);
+  return found;
+}
+
+/// Those of methods that know classes.
+Results withClasses(const Results& results) {
+  Results found;
+  std::copy_if(results.begin(), results.end(), std::back_inserter(found),
+               [](const TrialResult* r) { return r->classes; });
   return found;
 }
 
@@ -81,10 +90,11 @@ std::string pivot(const Results& results, const std::string& corner, Column&& co
   return table.text();
 }
 
-/// Everything that labelled points tell of each result.
-std::string pointCloudDetails(const Results& results, bool with_variant) {
+/// Everything that labelled points tell of each result; `variant` names what it varies, if
+/// anything.
+std::string pointCloudDetails(const Results& results, std::string (*variant)(const TrialResult&)) {
   std::vector<std::string> header{"method"};
-  if (with_variant) header.push_back("variant");
+  if (variant != nullptr) header.push_back("variant");
   for (const char* name :
        {"w-avg IoU", "geom. IoU", "precision", "recall", "accurateness", "of the box",
         "mIoU points", "acc. points", "coverage", "Brier", "ECE", "ms/scan"})
@@ -92,7 +102,7 @@ std::string pointCloudDetails(const Results& results, bool with_variant) {
   MarkdownTable table(header);
   for (const TrialResult* r : results) {
     std::vector<std::string> row{r->method};
-    if (with_variant) row.push_back(r->variant);
+    if (variant != nullptr) row.push_back(variant(*r));
     const auto add = [&](bool there, const std::string& text) {
       row.push_back(there ? text : kNone);
     };
@@ -161,23 +171,24 @@ std::string variantOf(const TrialResult& result) {
 }
 
 std::string densitySweep(const Results& results) {
-  return "w-average IoU [%] by density:\n\n" + pivot(results, "method", variantOf, weightedIou) +
-         "All scores [%; Brier and ECE as they are]:\n\n" + pointCloudDetails(results, true);
+  return "w-average IoU [%] by density:\n\n" +
+         pivot(withClasses(results), "method", variantOf, weightedIou) +
+         "All scores [%; Brier and ECE as they are]:\n\n" + pointCloudDetails(results, variantOf);
 }
 
 std::string byObject(const Results& results) {
   MarkdownTable table({"method", "variant", "w-avg IoU", "their code", "paper"});
-  for (const TrialResult* r : results)
+  for (const TrialResult* r : withClasses(results))
     table.add({r->method, r->variant, weightedIou(*r),
                published(detail::kTheirCode, "P2", r->variant, r->method, "w_average_iou", percent),
                published(detail::kPaper, "P2", r->variant, r->method, "w_average_iou", percent)});
   return "w-average IoU [%]; the paper does not state its density:\n\n" + table.text() +
-         "All scores:\n\n" + pointCloudDetails(results, true);
+         "All scores:\n\n" + pointCloudDetails(results, variantOf);
 }
 
 std::string street(const Results& results, const std::optional<PointScore>& predictions) {
   MarkdownTable table({"method", "w-avg IoU", "their code", "paper", "mIoU points", "acc. points"});
-  for (const TrialResult* r : results)
+  for (const TrialResult* r : withClasses(results))
     table.add({r->method, weightedIou(*r),
                published(detail::kTheirCode, "P3", "", r->method, "w_average_iou", percent),
                published(detail::kPaper, "P3", "", r->method, "w_average_iou", percent),
@@ -186,7 +197,7 @@ std::string street(const Results& results, const std::optional<PointScore>& pred
   if (predictions)
     table.add({"input labels", kNone, kNone, kNone, percent(predictions->meanIou()),
                percent(predictions->accuracy())});
-  return table.text() + "All scores:\n\n" + pointCloudDetails(results, false);
+  return table.text() + "All scores:\n\n" + pointCloudDetails(results, nullptr);
 }
 
 std::string structuredRoom(const Results& results) {
@@ -222,12 +233,14 @@ std::string robot(const Results& results) {
          "All scores over all voxels of the world:\n\n" + exactDetails(results, true, allVoxels);
 }
 
+std::string scansOf(const TrialResult& result) {
+  return std::to_string(result.scans) + (result.scans == 1 ? " scan" : " scans");
+}
+
 std::string repetition(const Results& results) {
-  const auto scans = [](const TrialResult& r) {
-    return std::to_string(r.scans) + (r.scans == 1 ? " scan" : " scans");
-  };
   return "w-average IoU [%] after so many scans:\n\n" +
-         pivot(results, "method", scans, weightedIou);
+         pivot(withClasses(results), "method", scansOf, weightedIou) + "All scores:\n\n" +
+         pointCloudDetails(results, scansOf);
 }
 
 /// "see-csom:block_depth=2:context_threshold=0.1" → its two values.
