@@ -8,7 +8,10 @@
 namespace csom {
 
 TemporaryFolder::TemporaryFolder() {
-  std::string path = (std::filesystem::temp_directory_path() / "csom-XXXXXX").string();
+  std::error_code error;
+  const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
+  if (error) throw FileError("TMPDIR", "names no folder: " + error.message());
+  std::string path = (parent / "csom-XXXXXX").string();
   if (mkdtemp(path.data()) == nullptr)
     throw FileError(path, "a temporary folder cannot be made there; set TMPDIR to another place");
   path_ = path;
