@@ -88,13 +88,14 @@ TEST(RoomProtocols, P6RepeatsARandomShareWithNoise) {
 TEST(RoomProtocols, ReadsCloudsInNaturalOrderAndTellsWhatItLeavesOut) {
   const test::TempFolder folder;
   test::writeBytes(folder / "10.pcd", test::pcdFile("0 0 0 2\n", 1));
-  test::writeBytes(folder / "2.pcd", test::pcdFile("0 0 0 1\n1 0 0 77\nnan 0 0 1\n", 3));
+  test::writeBytes(folder / "2.pcd", test::pcdFile("0 0 0 1 -1\n1 0 0 77\nnan 0 0 1\n", 3));
   const Room room = readRoom(folder.path(), test::labelsOf("stanford"));
   ASSERT_EQ(room.clouds.size(), 2U);
   EXPECT_THAT(room.clouds[0].labels, ElementsAre(1, kFreeClass));
   EXPECT_THAT(room.clouds[1].labels, ElementsAre(2));
   EXPECT_THAT(room.warnings,
               ElementsAre(HasSubstr("1 rows that are no points"),
+                          HasSubstr("ignored surplus columns of 1 rows"),
                           HasSubstr("1 points with labels that the label set 'stanford'")));
 }
 

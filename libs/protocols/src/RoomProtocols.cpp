@@ -56,10 +56,12 @@ Room readRoom(const std::string& folder, const LabelSet& labels) {
   room.labels = labels;
   std::size_t unknown = 0;
   std::size_t rows = 0;
+  std::size_t surplus = 0;
   for (const std::string& file : detail::filesIn(folder, ".pcd")) {
     const PcdCloud cloud = readPcd(file, PcdRowPolicy::IgnoreExtra);
     if (!cloud.has_labels) throw FileError(file, "has no field 'label', so it cannot be scored");
     rows += cloud.skipped_rows;
+    surplus += cloud.irregular_rows - cloud.skipped_rows;
     LabelledCloud& kept = room.clouds.emplace_back();
     for (std::size_t i = 0; i < cloud.points.size(); ++i) {
       if (!cloud.points[i].allFinite()) {
@@ -74,6 +76,9 @@ Room readRoom(const std::string& folder, const LabelSet& labels) {
   if (rows > 0)
     room.warnings.push_back(folder + ": left out " + std::to_string(rows) +
                             " rows that are no points");
+  if (surplus > 0)
+    room.warnings.push_back(folder + ": ignored surplus columns of " + std::to_string(surplus) +
+                            " rows");
   if (unknown > 0)
     room.warnings.push_back(folder + ": left out " + std::to_string(unknown) +
                             " points with labels that the label set '" + labels.name() +
