@@ -69,10 +69,11 @@ std::string weightedIou(const TrialResult& result) {
   return result.classes ? percent(result.voxels.score.weightedAverageIou()) : kNone;
 }
 
-/// A row a method, a column for each value of `column`.
+/// A row a method, a column for each value of `column`; nothing without results.
 template <class Column, class Cell>
-std::string pivot(const Results& results, const std::string& corner, Column&& column, Cell&& cell) {
-  std::vector<std::string> header{corner};
+std::string pivot(const std::string& title, const Results& results, Column&& column, Cell&& cell) {
+  if (results.empty()) return "";
+  std::vector<std::string> header{"method"};
   const auto columns = distinct(results, column);
   header.insert(header.end(), columns.begin(), columns.end());
   MarkdownTable table(header);
@@ -87,7 +88,7 @@ std::string pivot(const Results& results, const std::string& corner, Column&& co
     }
     table.add(row);
   }
-  return table.text();
+  return title + ":\n\n" + table.text();
 }
 
 /// Everything that labelled points tell of each result; `variant` names what it varies, if
@@ -171,8 +172,7 @@ std::string variantOf(const TrialResult& result) {
 }
 
 std::string densitySweep(const Results& results) {
-  return "w-average IoU [%] by density:\n\n" +
-         pivot(withClasses(results), "method", variantOf, weightedIou) +
+  return pivot("w-average IoU [%] by density", withClasses(results), variantOf, weightedIou) +
          "All scores [%; Brier and ECE as they are]:\n\n" + pointCloudDetails(results, variantOf);
 }
 
@@ -238,9 +238,9 @@ std::string scansOf(const TrialResult& result) {
 }
 
 std::string repetition(const Results& results) {
-  return "w-average IoU [%] after so many scans:\n\n" +
-         pivot(withClasses(results), "method", scansOf, weightedIou) + "All scores:\n\n" +
-         pointCloudDetails(results, scansOf);
+  return pivot("w-average IoU [%] after so many scans", withClasses(results), scansOf,
+               weightedIou) +
+         "All scores:\n\n" + pointCloudDetails(results, scansOf);
 }
 
 /// "see-csom:block_depth=2:context_threshold=0.1" → its two values.
@@ -291,8 +291,8 @@ std::string runtimes(const Evaluation& evaluation) {
     };
     theirs.add({method, of("P2"), of("P3"), of("P4")});
   }
-  return "## Runtime\n\nMedian time of an insertion [ms], one thread:\n\n" +
-         pivot(chosen, "method", column,
+  return "## Runtime\n\n" +
+         pivot("Median time of an insertion [ms], one thread", chosen, column,
                [](const TrialResult& r) { return milliseconds(r.ms_per_scan); }) +
          "The code of the paper, on another machine:\n\n" + theirs.text();
 }

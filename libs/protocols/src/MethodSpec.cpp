@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csom/core/Error.h>
-#include <csom/eval/BgkOctoMapMapper.h>
+#include <csom/eval/Baselines.h>
 #include <csom/eval/CsomMapper.h>
-#include <csom/eval/OctoMapMapper.h>
 #include <csom/protocols/MethodSpec.h>
 
 #include <algorithm>
@@ -21,27 +20,6 @@ bool isEngineMethod(const std::string& name) {
   return true;
 }
 
-template <class Baseline>
-std::unique_ptr<Mapper> make(const Options& options) {
-  return std::make_unique<Baseline>(options);
-}
-
-struct BaselineFactory {
-  const char* name;
-  std::unique_ptr<Mapper> (*make)(const Options&);
-};
-
-constexpr BaselineFactory kBaselines[] = {
-    {"octomap", make<OctoMapMapper>},
-    {"bgkoctomap-l", make<BgkOctoMapMapper>},
-};
-
-const BaselineFactory* findBaseline(const std::string& name) {
-  for (const BaselineFactory& baseline : kBaselines)
-    if (name == baseline.name) return &baseline;
-  return nullptr;
-}
-
 /// What a trial fixes for all methods.
 bool isFixed(const std::string& key) {
   return key == "resolution" || key == "number_of_classes" || key == "unlabelled_class_id" ||
@@ -52,7 +30,7 @@ bool isFixed(const std::string& key) {
 
 std::vector<std::string> defaultMethods() {
   std::vector<std::string> names{"s-csm", "s-bki", "see-csom"};
-  for (const BaselineFactory& baseline : kBaselines) names.push_back(baseline.name);
+  for (const Baseline baseline : kBaselines) names.push_back(toString(baseline));
   return names;
 }
 
@@ -61,7 +39,7 @@ MethodSpec MethodSpec::parse(const std::string& text) {
   spec.text = text;
   std::istringstream parts(text);
   std::getline(parts, spec.name, ':');
-  const bool is_baseline = findBaseline(spec.name) != nullptr;
+  const bool is_baseline = baselineNamed(spec.name).has_value();
   if (!is_baseline && !isEngineMethod(spec.name)) {
     std::string known;
     for (const std::string& name : defaultMethods()) known += (known.empty() ? "" : ", ") + name;
@@ -85,7 +63,11 @@ MethodSpec MethodSpec::parse(const std::string& text) {
 }
 
 std::unique_ptr<Mapper> makeMapper(const MethodSpec& spec, const Options& given) {
-  if (const BaselineFactory* baseline = findBaseline(spec.name)) return baseline->make(given);
+  if (const auto baseline = baselineNamed(spec.name)) {
+    BaselineOptions input;
+    input.input = given;
+    return makeBaseline(*baseline, input);
+  }
   Options options = given;
   parse("method", spec.name, options.method);
   for (const auto& [key, value] : spec.settings) setOption(options, key, value);
