@@ -26,7 +26,7 @@ AkiMapMapper::AkiMapMapper(const Options& input, const AkiMapParameters& paramet
   const double r = input_.resolution;
   if (parameters_.max_search_radius == 0)
     parameters_.max_search_radius = std::clamp(input_.free_resolution, r, 64 * r);
-  if (parameters_.variance_noise == 0) parameters_.variance_noise = 0.1 * r * r;
+  if (parameters_.variance_noise == 0) parameters_.variance_noise = std::max(0.001, 0.1 * r * r);
   detail::checkParameter("max_search_radius", parameters_.max_search_radius, r, 64 * r);
   detail::checkParameter("sensing_range", parameters_.sensing_range, 1e-3, 1e7);
   detail::checkParameter("variance_noise", parameters_.variance_noise, 1e-6 * r * r, 1e3 * r * r);

@@ -41,7 +41,7 @@ class SparseVoxels {
 
   static std::uint64_t keyOf(const ChunkIndex& c) {
     const auto bits = [](std::int32_t i) {
-      return static_cast<std::uint64_t>(i + kMaxChunkIndex + 1);
+      return static_cast<std::uint64_t>(std::int64_t{i} + kMaxChunkIndex + 1);
     };
     return bits(c.x) | bits(c.y) << 21 | bits(c.z) << 42;
   }

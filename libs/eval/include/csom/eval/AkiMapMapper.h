@@ -23,16 +23,16 @@ struct AkiMapParameters {
   /// the sensor [m]; at the sensor it is r, and in between it grows linearly. 0 = free_resolution.
   double max_search_radius = 0;
   double sensing_range = 8;  ///< [m]
-  /// Added to the variances of a kernel's neighbours [m²]; 0 = 0.1 r²: theirs is 0.001 m², at
-  /// r = 0.1 m.
+  /// Added to the variances of a kernel's neighbours [m²]; 0 = theirs, 0.001 m², but at least
+  /// 0.1 r²: thinner kernels would miss the centres of voxels that they pass through.
   double variance_noise = 0;
   double prior = 0.001;             ///< α0 = β0, evidence before any scan
   double occupied_threshold = 0.5;  ///< more probable voxels are occupied
 };
 
-/// Written from Y. Kwon, B. Moon, S.-E. Yoon, "Adaptive Kernel Inference for Dense and Sharp
-/// Occupancy Grids", IEEE/RSJ IROS 2020, and the description of parameters that its authors
-/// published with their program.
+/// After Y. Kwon, B. Moon, S.-E. Yoon, "Adaptive Kernel Inference for Dense and Sharp Occupancy
+/// Grids", IEEE/RSJ IROS 2020; constants and corner cases are those of the program that its
+/// authors published.
 ///
 /// Hits and free samples each have an anisotropic sparse kernel. Its axes and lengths are those of
 /// the covariance, about the sample, of the samples with the same label within a search radius:
@@ -50,8 +50,8 @@ struct AkiMapParameters {
 /// Decided here: of 33 scales in equal ratios the largest of least cost is taken, where the
 /// authors' program makes steps of gradient descent, whose length their weights, which vary by
 /// orders of magnitude, would decide; free samples lie at regular steps before each hit and not at
-/// random ones, so that the same input gives the same map; and variance_noise goes with the
-/// resolution. As in that program there is one sample a voxel, the sensor's place is one of the
+/// random ones, so that the same input gives the same map; and variance_noise has a least
+/// value. As in that program there is one sample a voxel, the sensor's place is one of the
 /// free ones, and none is free where there is a hit.
 class AkiMapMapper : public Mapper {
  public:

@@ -25,7 +25,7 @@ struct BgkOctoMapParameters {
   double occupied_threshold = 0.7;  ///< more probable voxels are occupied
 };
 
-/// Written from K. Doherty, T. Shan, J. Wang, B. Englot, "Learning-Aided 3-D Occupancy Mapping With
+/// After K. Doherty, T. Shan, J. Wang, B. Englot, "Learning-Aided 3-D Occupancy Mapping With
 /// Bayesian Generalized Kernel Inference", IEEE Transactions on Robotics 35(4), 2019.
 ///
 /// A hit is a training point with y = 1. Each beam is one with y = 0: the segment from the sensor

@@ -30,7 +30,7 @@ struct GpOctoMapParameters {
   double occupied_threshold = 0.7;   ///< more probable voxels are occupied
 };
 
-/// Written from J. Wang, B. Englot, "Fast, Accurate Gaussian Process Occupancy Maps via Test-Data
+/// After J. Wang, B. Englot, "Fast, Accurate Gaussian Process Occupancy Maps via Test-Data
 /// Octrees and Nested Bayesian Fusion", IEEE ICRA 2016.
 ///
 /// Hits are training points with y = 1, free samples with y = −1. The points of each block train a
