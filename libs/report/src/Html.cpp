@@ -37,6 +37,15 @@ std::string escapeHtml(const std::string& text) {
   return escaped;
 }
 
+std::string dataElement(const std::string& json, const std::string& id) {
+  std::string html = "<script type=\"application/json\"";
+  if (!id.empty()) html += " id=\"" + id + "\"";
+  html += ">";
+  // In JSON this character can only be part of a string.
+  for (const char c : json) html += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  return html + "</script>\n";
+}
+
 std::string cssColor(const Color& color) {
   char text[8];
   std::snprintf(text, sizeof text, "#%02x%02x%02x", color[0], color[1], color[2]);

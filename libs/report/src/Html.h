@@ -13,6 +13,10 @@ namespace csom {
 /// Makes any bytes safe as text and inside quoted attributes; control characters become spaces.
 std::string escapeHtml(const std::string& text);
 
+/// A <script> that is no script but JSON for one: nothing in it can end the element. `id` may be
+/// empty.
+std::string dataElement(const std::string& json, const std::string& id = "");
+
 /// "#c80000".
 std::string cssColor(const Color& color);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The report page, section by section.
 #include <csom/report/Format.h>
+#include <csom/report/HtmlPage.h>
 #include <csom/report/HtmlReport.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 
 #include "CameraSections.h"
 #include "Html.h"
-#include "ReportStyle.h"
 #include "TimingSummary.h"
 
 namespace csom {
@@ -241,15 +241,7 @@ void writeParameters(std::ostream& page, const std::vector<Parameter>& parameter
 
 std::string htmlReport(const RunRecord& record, const MapFigures& figures,
                        const std::vector<std::uint8_t>& top_view) {
-  const std::string title = escapeHtml(titleOf(record));
   std::ostringstream page;
-  page << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-       << "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-       // Should anything ever slip through the escaping, it still may not run or load.
-       << "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-       << "img-src data:; style-src 'unsafe-inline'\">\n"
-       << "<title>" << title << "</title>\n<style>" << kReportStyle << "</style>\n</head>\n<body>\n"
-       << "<h1>" << title << "</h1>\n";
   writeSummary(page, record, figures);
   writeFigures(page, record, figures);
   writeTopView(page, figures, top_view);
@@ -263,8 +255,7 @@ std::string htmlReport(const RunRecord& record, const MapFigures& figures,
   writeWarnings(page, record.warnings);
   writeOrigin(page, record, figures);
   writeParameters(page, record.parameters);
-  page << "</body>\n</html>\n";
-  return page.str();
+  return toHtml(HtmlPage{titleOf(record), page.str()});
 }
 
 }  // namespace csom
