@@ -38,7 +38,7 @@
       showLine: series.marks !== 'points',
       borderColor: color, backgroundColor: color,
       borderWidth: 2, borderDash: series.dashed ? [6, 4] : [],
-      pointStyle: SHAPES[number % SHAPES.length],
+      pointStyle: series.marks === 'line' ? 'line' : SHAPES[number % SHAPES.length],
       pointRadius: series.marks === 'line' ? 0 : many ? 1.5 : 4,
       pointHitRadius: 6,
     };
