@@ -5,6 +5,7 @@
 #include <csom/io/TextParser.h>
 #include <csom/protocols/EvaluationJson.h>
 #include <csom/protocols/EvaluationTables.h>
+#include <csom/report/EvaluationPage.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -23,6 +24,7 @@ namespace {
 
 constexpr char kJsonFile[] = "evaluation.json";
 constexpr char kTablesFile[] = "evaluation.md";
+constexpr char kPageFile[] = "evaluation.html";
 
 struct EvalRunArguments {
   std::string protocols;
@@ -84,7 +86,7 @@ void write(const std::string& file, const std::string& text) {
 
 void runEval(const EvalRunArguments& arguments) {
   const EvaluationRequest request = requestOf(arguments);
-  const OutputFolder folder(arguments.output, {kJsonFile, kTablesFile});
+  const OutputFolder folder(arguments.output, {kJsonFile, kTablesFile, kPageFile});
   const Evaluation evaluation = evaluateWithProgress(request);
   for (const std::string& warning : evaluation.warnings)
     std::fprintf(stderr, "csom: warning: %s\n", detail::printable(warning).c_str());
@@ -99,6 +101,7 @@ void runEval(const EvalRunArguments& arguments) {
   StagedResults results(folder);
   write(results.file(kJsonFile), json_text);
   write(results.file(kTablesFile), tables);
+  write(results.file(kPageFile), evaluationPage(evaluation));
   results.commit();
 
   std::fputs(arguments.json ? json_text.c_str() : tables.c_str(), stdout);
@@ -123,8 +126,9 @@ void addEvalRunCommand(CLI::App& eval) {
   command->add_option("PROTOCOLS", arguments->protocols, "Protocols separated by commas, or all")
       ->required();
   command
-      ->add_option("-o,--output", arguments->output,
-                   "Folder for evaluation.json and evaluation.md; created if missing")
+      ->add_option(
+          "-o,--output", arguments->output,
+          "Folder for evaluation.json, evaluation.md and evaluation.html; created if missing")
       ->required();
   command->add_option(
       "--data", arguments->data,
