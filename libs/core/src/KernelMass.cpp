@@ -108,6 +108,31 @@ std::size_t select(const PointColumns& points, const std::vector<PointRange>& ra
 
 }  // namespace
 
+std::vector<LaneGroup> laneGroups(int block_depth) {
+  const int side = 1 << (block_depth - 1);
+  const int step = side > 1 ? 2 : 1;
+  std::vector<LaneGroup> groups;
+  for (int z = 0; z < side; z += step)
+    for (int y = 0; y < side; y += step)
+      for (int x = 0; x < side; x += step) {
+        LaneGroup group;
+        for (int lane = 0; lane < static_cast<int>(kLanes); ++lane) {
+          const auto l = static_cast<std::size_t>(lane);
+          group.voxel[l] = side > 1
+                               ? VoxelIndex{x + (lane & 1), y + ((lane >> 1) & 1), z + (lane >> 2)}
+                               : VoxelIndex{x, y, z};
+          const auto centre = [](std::int32_t voxel) {
+            return fixedPoint(voxel) + kFixedPointVoxel / 2;
+          };
+          group.x[l] = centre(group.voxel[l].x);
+          group.y[l] = centre(group.voxel[l].y);
+          group.z[l] = centre(group.voxel[l].z);
+        }
+        groups.push_back(group);
+      }
+  return groups;
+}
+
 void selectNearby(const PointColumns& points, const std::vector<PointRange>& ranges,
                   const BlockPlace& block, float length, std::vector<std::uint32_t>& selected) {
   std::size_t candidates = 0;

@@ -21,6 +21,9 @@ struct alignas(kLaneAlignment) LaneGroup {
   std::array<VoxelIndex, kLanes> voxel{};  ///< relative to the block's first voxel
 };
 
+/// The groups that make up a block.
+std::vector<LaneGroup> laneGroups(int block_depth);
+
 struct BlockPlace {
   FixedPoint x, y, z;  ///< lower corner of the block
   FixedPoint edge;     ///< of the block

@@ -15,8 +15,10 @@ using detail::wordOf;
 
 namespace {
 
-constexpr EnumWords<Method, 3> kMethods{
-    {{Method::SeeCsom, "see-csom"}, {Method::SBki, "s-bki"}, {Method::SCsm, "s-csm"}}};
+constexpr EnumWords<Method, 4> kMethods{{{Method::SurfaceCsom, "surface-csom"},
+                                         {Method::SeeCsom, "see-csom"},
+                                         {Method::SBki, "s-bki"},
+                                         {Method::SCsm, "s-csm"}}};
 constexpr EnumWords<Kernel, 2> kKernels{{{Kernel::Sparse, "sparse"}, {Kernel::Linear, "linear"}}};
 constexpr EnumWords<Neighbourhood, 2> kNeighbourhoods{
     {{Neighbourhood::Radius, "radius"}, {Neighbourhood::ExtendedBlock, "extended-block"}}};
@@ -131,6 +133,14 @@ void Options::validate() const {
     reject("kernel_length_max", toString(kernelLengthMax()),
            "at least kernel_length_min = " + toString(kernelLengthMin()));
   checkRange("kernel_scale", kernel_scale, 1e-3, 1e5);
+  if (surface_neighbours < 3 || surface_neighbours > 64)
+    reject("surface_neighbours", toString(surface_neighbours), "3 to 64");
+  checkRange("surface_reach", surface_reach, 0.5, 4);
+  checkRange("surface_gap", surface_gap, 1, 8);
+  checkRange("surface_thickness", surface_thickness, 0.1, 10);
+  checkRange("surface_support", surface_support, 1e-3, 100);
+  checkRange("surface_hit_weight", surface_hit_weight, 0, 100);
+  checkRange("counter_evidence", counter_evidence, 0, 100);
   checkRange("prior", prior, 1e-9, 1e5);
   if (threads < 0 || threads > 1024)
     reject("threads", toString(threads), "0 (all processors) to 1024");

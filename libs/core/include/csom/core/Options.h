@@ -9,7 +9,7 @@
 namespace csom {
 
 /// How a scan becomes counts; see docs/algorithm.md.
-enum class Method { SeeCsom, SBki, SCsm };
+enum class Method { SurfaceCsom, SeeCsom, SBki, SCsm };
 enum class Kernel { Sparse, Linear };
 /// Which training points a voxel listens to: all within the kernel length (eq. 21), or only those
 /// of its block and (where the block's class entropy exceeds 0.3) of the block's neighbours.
@@ -36,7 +36,7 @@ struct Options {
 
   Method method = Method::SeeCsom;
   bool rvfm = true;  ///< see-csom: redundant-voxel filter by context entropy (eqs. 4–9)
-  bool aklm = true;  ///< see-csom: kernel length adapted by class entropy (eqs. 10–15)
+  bool aklm = true;  ///< see-csom, surface-csom: length adapted by class entropy (eqs. 10–15)
   Kernel kernel = Kernel::Sparse;
   Neighbourhood neighbourhood = Neighbourhood::Radius;
 
@@ -58,6 +58,15 @@ struct Options {
   double kernel_length = 0.0;      ///< fixed L of s-bki and of aklm = off [m]; 0 = 3 r
   double kernel_scale = 1.0;       ///< ε0 of eq. 19
 
+  bool surface_planes = true;       ///< surface-csom: kernels lie along the local surface
+  int surface_neighbours = 12;      ///< hits that tell the local surface of a hit
+  double surface_reach = 1.6;       ///< kernel length, in units of the spacing of hits
+  double surface_gap = 4;           ///< widest spacing that a plane spans, in max(ds, r)
+  double surface_thickness = 0.97;  ///< of a plane, in voxels measured along its normal
+  double surface_support = 0.5;     ///< τ, kernel mass that makes a voxel occupied by itself
+  double surface_hit_weight = 0.6;  ///< additional mass for the voxel that a hit lies in
+  double counter_evidence = 1;      ///< weight of what speaks against a voxel beside a surface
+
   double prior = 0.001;  ///< σ0 of eq. 22, evidence that every class has beforehand
 
   int threads = 1;  ///< threads of one insertion; 0 = all processors. Does not change the map
@@ -73,7 +82,9 @@ struct Options {
   }
   double kernelLengthFixed() const { return kernel_length > 0 ? kernel_length : 3 * resolution; }
   bool usesContextEntropy() const { return method == Method::SeeCsom && rvfm; }
-  bool usesClassEntropy() const { return method == Method::SeeCsom && aklm; }
+  bool usesClassEntropy() const {
+    return (method == Method::SeeCsom || method == Method::SurfaceCsom) && aklm;
+  }
 };
 
 /// Names as they stand in ini files: "see-csom", "radius", "on" … Parsing throws OptionError with
@@ -103,9 +114,9 @@ void visitOptions(OptionsLike& o, Visitor&& visitor) {
   visitor("unlabelled_class_id", o.unlabelled_class_id, "",
           "class that any label outvotes, 0 = none; taken from the label set");
   visitor("block_depth", o.block_depth, "", "a block is 2^(block_depth-1) voxels a side (1..4)");
-  visitor("method", o.method, "", "see-csom | s-bki | s-csm");
+  visitor("method", o.method, "", "surface-csom | see-csom | s-bki | s-csm");
   visitor("rvfm", o.rvfm, "", "see-csom: redundant-voxel filter by context entropy");
-  visitor("aklm", o.aklm, "", "see-csom: kernel length adapted by class entropy");
+  visitor("aklm", o.aklm, "", "see-csom, surface-csom: kernel length adapted by class entropy");
   visitor("kernel", o.kernel, "", "sparse | linear");
   visitor("neighbourhood", o.neighbourhood, "", "radius | extended-block");
   visitor("ds_resolution", o.ds_resolution, "m",
@@ -125,6 +136,22 @@ void visitOptions(OptionsLike& o, Visitor&& visitor) {
   visitor("kernel_length", o.kernel_length, "m",
           "fixed length of s-bki and aklm = off, 0 = 3 x resolution");
   visitor("kernel_scale", o.kernel_scale, "", "epsilon 0 of eq. 19");
+  visitor("surface_planes", o.surface_planes, "",
+          "surface-csom: kernels lie along the local surface");
+  visitor("surface_neighbours", o.surface_neighbours, "",
+          "surface-csom: hits that tell the local surface of a hit");
+  visitor("surface_reach", o.surface_reach, "",
+          "surface-csom: kernel length, in units of the spacing of hits");
+  visitor("surface_gap", o.surface_gap, "",
+          "surface-csom: widest spacing that a plane spans, in units of max(ds_resolution, resolution)");
+  visitor("surface_thickness", o.surface_thickness, "",
+          "surface-csom: of a plane, in voxels measured along its normal");
+  visitor("surface_support", o.surface_support, "",
+          "surface-csom: kernel mass that makes a voxel occupied by itself");
+  visitor("surface_hit_weight", o.surface_hit_weight, "",
+          "surface-csom: additional mass for the voxel that a hit lies in");
+  visitor("counter_evidence", o.counter_evidence, "",
+          "surface-csom: weight of what speaks against a voxel beside a surface");
   visitor("prior", o.prior, "", "sigma 0 of eq. 22");
   visitor("threads", o.threads, "", "threads of one insertion, 0 = all processors");
 }

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The surface around each hit of a scan, and the kernel that follows from it (surface-csom).
+#pragma once
+
+#include <csom/core/Options.h>
+#include <csom/core/ScanPreparation.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace csom {
+
+/// What the neighbourhood of a training point looks like. Lengths in voxels.
+///
+/// From the nearest `surface_neighbours` hits q_n of a hit p, weighted by k(‖q_n − p‖/2.5s):
+/// eigenvalues λ0 ≤ λ1 ≤ λ2 of their covariance, the normal n, and the spacing
+///
+///     s = d_3·√(π/3.5),  d_3 the distance to the third nearest hit                       (S1)
+///
+/// since a disc of radius d_3 holds 3.5 hits if each stands for an area s². A hit lies on a plane
+/// if λ0 < λ1/2, otherwise it is scattered.
+struct LocalSurface {
+  enum class Shape : std::uint8_t { Free, Scattered, Plane };
+
+  Shape shape = Shape::Scattered;
+  /// L of the point's kernel: `surface_reach`·s, s no less than 1.1 voxels and no more than
+  /// max(ds, r), or `surface_gap` times that on a plane that its hits cover to both sides; 0.85 of
+  /// it for a scattered hit. L_min of eq. (15) for a free sample.
+  float length = 0;
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< of a plane; unit length, either sign
+  /// A plane passes through a voxel if its centre is nearer to the plane than
+  /// h = `surface_thickness`·(|n_x|+|n_y|+|n_z|)/2; 0 for all others.
+  float half_thickness = 0;
+};
+
+/// One a training point. Depends on nothing but the scan and the options.
+std::vector<LocalSurface> localSurfaces(const PreparedScan& scan, const Options& options);
+
+}  // namespace csom
