@@ -9,6 +9,10 @@
 namespace csom {
 namespace {
 
+/// Names stay in one line: a table of many classes scrolls.
+constexpr char kRowHeader[] =
+    "<th class=\"text\" style=\"white-space:nowrap;overflow-wrap:normal\">";
+
 std::string percent(double share) {
   char text[16];
   std::snprintf(text, sizeof text, "%.1f", 100 * share);
@@ -37,13 +41,12 @@ std::string confusionTable(const ConfusionMatrix& matrix, const LabelSet& labels
     if (matrix.truthCount(k) + matrix.predictedCount(k) > 0) classes.push_back(k);
   }
   std::string html =
-      "<div class=\"wide\"><table class=\"confusion\">\n<thead><tr><th "
-      "class=\"text\">truth ↓ map →</th>";
+      std::string("<div class=\"wide\"><table>\n<thead><tr>") + kRowHeader + "truth ↓ map →</th>";
   for (const ClassId k : classes) html += "<th>" + name(labels, k) + "</th>";
   html += "<th>precision</th><th>recall</th><th>F1</th></tr></thead>\n<tbody>\n";
   for (const ClassId truth : classes) {
     const auto all = static_cast<double>(matrix.truthCount(truth));
-    html += "<tr><th class=\"text\">" + name(labels, truth) + "</th>";
+    html += std::string("<tr>") + kRowHeader + name(labels, truth) + "</th>";
     for (const ClassId predicted : classes)
       html += cell(all > 0 ? static_cast<double>(matrix.count(truth, predicted)) / all : 0);
     html += "<td>" + percent(matrix.precision(truth)) + "</td><td>" +

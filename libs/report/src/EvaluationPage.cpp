@@ -147,6 +147,11 @@ void writeParameters(std::ostream& page, const Evaluation& evaluation) {
                                [](const TrialResult& r) { return r.ms_per_scan; })});
 }
 
+std::string titleOf(const TrialResult& result) {
+  return result.protocol + " " + (result.variant.empty() ? "" : result.variant + " ") +
+         result.method;
+}
+
 void writeConfusions(std::ostream& page, const Evaluation& evaluation) {
   const Results results = select(evaluation, [](const auto& r) {
     return r.classes && (r.protocol == "P3" || r.protocol == "P4" ||
@@ -159,9 +164,8 @@ void writeConfusions(std::ostream& page, const Evaluation& evaluation) {
          "map gives each class; free is whatever is not occupied.</p>\n";
   for (const TrialResult* r : results) {
     const VoxelFigures& voxels = r->seen ? *r->seen : r->voxels;
-    page << "<details><summary>" << escapeHtml(r->protocol + " " + r->variant) << " "
-         << escapeHtml(r->method) << (r->seen ? ", voxels that a beam reached" : "")
-         << "</summary>\n"
+    page << "<details><summary>" << escapeHtml(titleOf(*r))
+         << (r->seen ? ", voxels that a beam reached" : "") << "</summary>\n"
          << confusionTable(voxels.score.matrix(), evaluation.labels.at(r->protocol))
          << "</details>\n";
   }
