@@ -28,7 +28,7 @@ TEST(MethodSpec, IsANameWithSettings) {
 }
 
 TEST(MethodSpec, ErrorsNameWhatIsWrong) {
-  EXPECT_THAT(parseErrorOf("best"), HasSubstr("no method 'best'; there are s-csm"));
+  EXPECT_THAT(parseErrorOf("best"), HasSubstr("no method 'best'; there are surface-csom"));
   EXPECT_THAT(parseErrorOf("s-bki:kernel_length"), HasSubstr("'kernel_length' must be KEY=VALUE"));
   EXPECT_THAT(parseErrorOf("s-bki:magic=1"), HasSubstr("there is no option 'magic'"));
   EXPECT_THAT(parseErrorOf("s-bki:kernel_length=long"), HasSubstr("kernel_length"));

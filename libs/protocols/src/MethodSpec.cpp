@@ -29,7 +29,7 @@ bool isFixed(const std::string& key) {
 }  // namespace
 
 std::vector<std::string> defaultMethods() {
-  std::vector<std::string> names{"s-csm", "s-bki", "see-csom"};
+  std::vector<std::string> names{"surface-csom", "see-csom", "s-bki", "s-csm"};
   for (const Baseline baseline : kBaselines) names.push_back(toString(baseline));
   return names;
 }
