@@ -30,6 +30,8 @@ constexpr double kCovered = 0.5;
 /// Neighbouring voxels must hear of each other's hits, however dense those are.
 constexpr double kLeastSpacing = 1.1;
 constexpr double kScatteredReach = 0.85;
+/// Spacing of hits that count as dense, in max(ds, r): cells of down-sampling are not all filled.
+constexpr double kDense = 1.3;
 /// Lengths beyond these cost more than the gaps are worth, in voxels.
 constexpr double kWidestSpacing = 16;
 constexpr double kLongestKernel = 24;
@@ -156,7 +158,7 @@ class SurfaceSearch {
     LocalSurface surface;
     const std::size_t size = neighbours.size();
     if (size < kSpacingNeighbour) {
-      setLength(kLeastSpacing, surface);
+      setLength(radius_, kLeastSpacing, surface);
       return surface;
     }
     // Each hit stands for an area s², so a disc that reaches to the n-th neighbour holds n + ½.
@@ -170,7 +172,7 @@ class SurfaceSearch {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
     const Eigen::Vector3d lambda = solver.eigenvalues().cwiseMax(0.0);
     if (!options_.surface_planes || !(lambda[0] < kFlat * lambda[1])) {
-      setLength(std::min(spacing, spacing_limit_), surface);
+      setLength(spacing, spacing_limit_, surface);
       return surface;
     }
     surface.shape = Shape::Plane;
@@ -181,7 +183,7 @@ class SurfaceSearch {
                              2;
     const bool covered =
         std::sqrt(lambda[1]) - std::sqrt(lambda[0]) >= kCovered * std::sqrt(lambda[2]);
-    setLength(std::min(spacing, covered ? plane_spacing_limit_ : spacing_limit_), surface);
+    setLength(spacing, covered ? plane_spacing_limit_ : spacing_limit_, surface);
     return surface;
   }
 
@@ -202,7 +204,11 @@ class SurfaceSearch {
     return squares / mass - mean * mean.transpose();
   }
 
-  void setLength(double spacing, LocalSurface& surface) const {
+  /// `spacing` of the hits, and the widest that a kernel spans.
+  void setLength(double spacing, double limit, LocalSurface& surface) const {
+    const double expected = kDense * spacing_limit_ / spacing;
+    surface.density = static_cast<float>(std::min(1.0, expected * expected));
+    spacing = std::min(spacing, limit);
     const double length = options_.surface_reach * std::max(spacing, kLeastSpacing) *
                           (surface.shape == Shape::Plane ? 1 : kScatteredReach);
     surface.length = static_cast<float>(std::min(length, kLongestKernel));

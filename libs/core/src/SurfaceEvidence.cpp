@@ -43,7 +43,7 @@ CSOM_INLINE void raise(Lanes& reach, const Lanes& mass, float length) {
 
 template <class Rows>
 CSOM_INLINE void addPlane(const LocalSurface& s, float px, float py, float pz, Rows& votes,
-                          Rows& support, Rows& reach) {
+                          Rows& support, Rows& dense, Rows& reach) {
   const float inverse_length = 1 / s.length;
   const float shell = s.half_thickness + kShell;
   const float farthest = s.length + s.half_thickness;
@@ -65,7 +65,9 @@ CSOM_INLINE void addPlane(const LocalSurface& s, float px, float py, float pz, R
       const Lanes vote = off <= s.half_thickness ? mass : Lanes{};
       votes[row].mass += vote;
       raise(reach[row].mass, vote, farthest);
-      support[row].mass += off <= shell ? mass : Lanes{};
+      const Lanes near = off <= shell ? mass : Lanes{};
+      support[row].mass += near;
+      dense[row].mass += near * s.density;
     }
   }
 }
@@ -90,7 +92,7 @@ CSOM_INLINE void addBall(const LocalSurface& s, float px, float py, float pz, Ad
 }  // namespace
 
 void SurfaceEvidence::reset(const ChunkIndex& chunk) {
-  for (Rows* rows : {&votes_, &support_, &free_, &reach_}) rows->fill(Row{});
+  for (Rows* rows : {&votes_, &support_, &dense_, &free_, &reach_}) rows->fill(Row{});
   x_ = fixedPoint(chunk.x * kChunkSide);
   y_ = fixedPoint(chunk.y * kChunkSide);
   z_ = fixedPoint(chunk.z * kChunkSide);
@@ -112,13 +114,14 @@ void SurfaceEvidence::add(const PointColumns& points, const std::vector<LocalSur
     if (px + reach_x < 0 || px - reach_x > kChunkSide) continue;
     switch (s.shape) {
       case LocalSurface::Shape::Plane:
-        addPlane(s, px, py, pz, votes_, support_, reach_);
+        addPlane(s, px, py, pz, votes_, support_, dense_, reach_);
         break;
       case LocalSurface::Shape::Scattered:
         addBall(s, px, py, pz,
                 [&](std::size_t row, const Lanes& mass) __attribute__((always_inline)) {
                   votes_[row].mass += mass;
                   support_[row].mass += mass;
+                  dense_[row].mass += mass * s.density;
                   raise(reach_[row].mass, mass, s.length);
                 });
         break;
@@ -135,6 +138,7 @@ void SurfaceEvidence::add(const PointColumns& points, const std::vector<LocalSur
       const auto lane = static_cast<std::size_t>(px);
       votes_[row].mass[lane] += hit_weight_;
       support_[row].mass[lane] += hit_weight_;
+      dense_[row].mass[lane] += hit_weight_ * s.density;
     }
   }
 }

@@ -33,6 +33,11 @@ class SurfaceEvidence {
   float votes(int index_in_chunk) const { return get(votes_, index_in_chunk); }
   /// … and that of all surfaces that could: `votes` and those that pass beside it.
   float support(int index_in_chunk) const { return get(support_, index_in_chunk); }
+  /// Mean density of the hits that support it, 0 … 1.
+  float density(int index_in_chunk) const {
+    const float mass = support(index_in_chunk);
+    return mass > 0 ? get(dense_, index_in_chunk) / mass : 0;
+  }
   /// Mass of free samples.
   float free(int index_in_chunk) const { return get(free_, index_in_chunk); }
   /// All points that gave votes are nearer than this [voxels].
@@ -51,6 +56,7 @@ class SurfaceEvidence {
 
   Rows votes_{};
   Rows support_{};
+  Rows dense_{};
   Rows free_{};
   Rows reach_{};
   float hit_weight_;

@@ -237,7 +237,9 @@ class SurfaceInference {
     const bool has_votes = votes > 0 && mass > 0;
     double weight = kLeastWeight + (1 - kLeastWeight) * std::min(1.0, support / full);
     if (!has_votes && support < static_cast<double>(kLeastSupport)) weight = 0;
-    const double against = std::max(support, full) - (has_votes ? votes : 0);
+    const double density = static_cast<double>(scratch.evidence.density(voxel));
+    const double against =
+        support - (has_votes ? votes : 0) + density * std::max(0.0, full - support);
     const double scale = options_.kernel_scale;
     const double share = has_votes ? scale * weight * votes / mass : 0;
     scratch.runs.add(voxel, scratch.classes.data(), scratch.classes.size(), [&](ClassId k) {

@@ -28,6 +28,8 @@ struct LocalSurface {
   /// max(ds, r), or `surface_gap` times that on a plane that its hits cover to both sides; 0.85 of
   /// it for a scattered hit. L_min of eq. (15) for a free sample.
   float length = 0;
+  /// min(1, (1.3·max(ds, r)/s)²): how much it says that no other hit is near.
+  float density = 0;
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< of a plane; unit length, either sign
   /// A plane passes through a voxel if its centre is nearer to the plane than
   /// h = `surface_thickness`·(|n_x|+|n_y|+|n_z|)/2; 0 for all others.
