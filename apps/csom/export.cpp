@@ -1,65 +1,177 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// csom export: the voxels of a map for other programs.
-#include <csom/io/Exporters.h>
+// csom export: a map in the formats of other programs.
+#include <csom/core/Error.h>
+#include <csom/exports/OctomapFile.h>
+#include <csom/exports/PointFiles.h>
 #include <csom/io/MapFile.h>
+#include <csom/io/TextParser.h>
 
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "Arguments.h"
 #include "OutputPaths.h"
+#include "Progress.h"
 #include "commands.h"
 
 namespace csom {
 
 namespace {
 
+enum class ExportFormat { Ply, Pcd, Csv, Npz, Octomap };
+
+const std::map<std::string, ExportFormat>& formats() {
+  static const std::map<std::string, ExportFormat> words{{"ply", ExportFormat::Ply},
+                                                         {"pcd", ExportFormat::Pcd},
+                                                         {"csv", ExportFormat::Csv},
+                                                         {"npz", ExportFormat::Npz},
+                                                         {"octomap", ExportFormat::Octomap}};
+  return words;
+}
+
 struct ExportArguments {
   std::string file;
   std::string output;
   ExportFormat format = ExportFormat::Ply;
   bool all = false;
+  std::vector<std::string> classes;
+  VoxelFilter filter;  ///< without classes, which only the map's label set knows
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
 };
+
+/// Class ids of names or numbers.
+std::set<ClassId> classesNamed(const std::string& option, const std::vector<std::string>& names,
+                               const LabelSet& labels) {
+  std::set<ClassId> classes;
+  for (const std::string& name : names) {
+    std::optional<ClassId> id = labels.classByName(name);
+    int number = -1;
+    if (!id && detail::parseNumber(name, number) && number >= 0 &&
+        number < labels.numberOfClasses())
+      id = static_cast<ClassId>(number);
+    if (!id || *id == kFreeClass) {
+      std::vector<std::string> known;
+      for (const LabelClass& c : labels.classes())
+        if (c.id != kFreeClass) known.push_back(detail::printable(c.name));
+      throw ConfigError(option + ": no class " + detail::quoted(name) + "; the map has " +
+                        detail::joined(known));
+    }
+    classes.insert(*id);
+  }
+  return classes;
+}
+
+std::size_t writeExport(const ExportArguments& arguments, const VoxelSelection& voxels,
+                        const LabelSet& labels) {
+  switch (arguments.format) {
+    case ExportFormat::Ply:
+      return writePly(voxels, labels, arguments.output);
+    case ExportFormat::Pcd:
+      return writePcd(voxels, labels, arguments.output);
+    case ExportFormat::Csv:
+      return writeCsv(voxels, labels, arguments.output);
+    case ExportFormat::Npz:
+      return writeNpz(voxels, labels, arguments.output);
+    case ExportFormat::Octomap:
+      return writeOctomap(voxels, labels, arguments.output);
+  }
+  throw std::invalid_argument("export: unknown format");
+}
 
 void runExport(const ExportArguments& arguments) {
   requireSeparateOutputs({arguments.output}, {arguments.file});
   const MapDocument document = loadMap(arguments.file);
-  const std::size_t voxels =
-      exportMap(document.map, document.labels, arguments.format,
-                arguments.all ? ExportVoxels::Known : ExportVoxels::Occupied, arguments.output);
+  VoxelFilter filter = arguments.filter;
+  filter.free_voxels = arguments.all;
+  filter.classes = classesNamed("--classes", arguments.classes, document.labels);
+  std::size_t count = 0;
+  {
+    Progress progress("exporting");
+    const VoxelSelection voxels(
+        document.map, filter, arguments.frame,
+        [&](std::size_t seen, std::size_t known) { progress.update(seen, known); });
+    count = writeExport(arguments, voxels, document.labels);
+  }
   // Not to standard output: -o may be /dev/stdout.
-  std::fprintf(stderr, "%s: %zu voxels\n", arguments.output.c_str(), voxels);
+  std::fprintf(stderr, "%s: %zu voxels\n", arguments.output.c_str(), count);
+}
+
+Eigen::AlignedBox3d parseBox(const std::string& text) {
+  const auto n = parseNumbers<6>("--box", text);
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(n[0], n[1], n[2]),
+                                Eigen::Vector3d(n[3], n[4], n[5]));
+  if (!(box.sizes().minCoeff() > 0))
+    throw CLI::ValidationError(
+        "--box", "'" + text + "' is not a box: x0 < x1, y0 < y1 and z0 < z1 must hold");
+  return box;
+}
+
+Eigen::Isometry3d parseFrame(const std::string& text) {
+  const auto n = parseNumbers<6>("--frame", text);
+  const auto rotation = [&](std::size_t i, const Eigen::Vector3d& axis) {
+    return Eigen::AngleAxisd(n[i] * M_PI / 180, axis);
+  };
+  return Eigen::Translation3d(n[0], n[1], n[2]) * rotation(3, Eigen::Vector3d::UnitZ()) *
+         rotation(4, Eigen::Vector3d::UnitY()) * rotation(5, Eigen::Vector3d::UnitX());
+}
+
+void addFilters(CLI::App& command, const std::shared_ptr<ExportArguments>& arguments) {
+  command.add_flag("--all", arguments->all, "free voxels as well");
+  command
+      .add_option("--classes", arguments->classes, "only voxels of these classes (names or ids)")
+      ->delimiter(',')
+      ->type_name("A,B");
+  command
+      .add_option_function<std::string>(
+          "--box", [arguments](const std::string& text) { arguments->filter.box = parseBox(text); },
+          "only voxels whose centres lie in this box of the map's frame")
+      ->type_name("x0,y0,z0,x1,y1,z1");
+  command
+      .add_option("--min-probability", arguments->filter.min_probability,
+                  "only voxels whose class has at least this probability")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("P");
+  command
+      .add_option("--min-evidence", arguments->filter.min_evidence,
+                  "only voxels with at least this evidence (of all classes)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("E");
+  command
+      .add_option_function<std::string>(
+          "--frame", [arguments](const std::string& text) { arguments->frame = parseFrame(text); },
+          "pose of the map in the exported frame: metres, degrees")
+      ->type_name("x,y,z,yaw,pitch,roll");
 }
 
 }  // namespace
 
 void addExportCommand(CLI::App& program) {
-  const std::map<std::string, ExportFormat> formats{
-      {"ply", ExportFormat::Ply}, {"pcd", ExportFormat::Pcd}, {"csv", ExportFormat::Csv}};
   auto arguments = std::make_shared<ExportArguments>();
-  CLI::App* command =
-      program.add_subcommand("export", "Write the voxels of a map as a PLY, PCD or CSV file");
+  CLI::App* command = program.add_subcommand("export", "Write a map in a format of other programs");
   command->add_option("MAP", arguments->file, "map file (.csom)")->required();
-  command->add_option("--to", arguments->format, "ply, pcd or csv")
+  command->add_option("--to", arguments->format, "one of the formats below")
       ->required()
-      ->transform(oneOf(formats))
+      ->transform(oneOf(formats()))
       ->type_name("FORMAT");
-  command->add_option("-o,--output", arguments->output, "file to write, or /dev/stdout")
-      ->required();
-  command->add_flag("--all", arguments->all, "free voxels as well");
+  command->add_option("-o,--output", arguments->output, "file to write")->required();
+  addFilters(*command, arguments);
   command->footer(
-      "Writes the occupied voxels of a map, one point or line each: the voxel's centre in metres,\n"
-      "and its most likely class. ply and csv have that class's probability and variance too; "
-      "csv's\n"
-      "columns are x,y,z,class_id,class_name,probability,variance,evidence. pcd has x y z rgb "
-      "label,\n"
-      "in single precision, as PCL reads them.\n\n"
+      "Formats:\n"
+      "  ply      points with colour, class, probability, variance: MeshLab, CloudCompare\n"
+      "  pcd      points x y z rgb label, in single precision: PCL\n"
+      "  csv      x,y,z,class_id,class_name,probability,variance,evidence\n"
+      "  npz      the same as NumPy arrays\n"
+      "  octomap  .ot: occupancy and colours of classes; .bt: occupancy. With free space\n"
+      "docs/exports.md says more.\n\n"
       "Examples:\n"
-      "  csom export out/map.csom --to ply -o map.ply      # for MeshLab or CloudCompare\n"
-      "  csom export out/map.csom --to pcd -o map.pcd      # for PCL, pcl_viewer\n"
-      "  csom export out/map.csom --to csv --all -o map.csv");
+      "  csom export out/map.csom --to ply -o map.ply\n"
+      "  csom export out/map.csom --to csv --classes road,sidewalk -o ground.csv\n"
+      "  csom export out/map.csom --to octomap -o map.ot");
   command->callback([arguments] { runExport(*arguments); });
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // csom query: one question to a map.
 #include <csom/core/Error.h>
+#include <csom/exports/VoxelSelection.h>
 #include <csom/io/MapFile.h>
 #include <csom/io/TextParser.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -119,29 +119,13 @@ void queryRay(const MapDocument& document, const QueryArguments& arguments) {
   printVoxel(document.map.voxel(hit->voxel), document.labels);
 }
 
-/// The voxels whose centres lie in a box of the map frame; nothing if there are none.
-std::optional<VoxelBox> voxelsInside(const Grid& grid, const Eigen::Vector3d& min,
-                                     const Eigen::Vector3d& max) {
-  const auto index = [&](double value) {
-    return static_cast<std::int32_t>(
-        std::clamp<double>(value, -kMaxVoxelIndex - 1, kMaxVoxelIndex));
-  };
-  const Eigen::Array3d first = (min / grid.resolution()).array() - 0.5;
-  const Eigen::Array3d last = (max / grid.resolution()).array() - 0.5;
-  const VoxelBox box{
-      {index(std::ceil(first.x())), index(std::ceil(first.y())), index(std::ceil(first.z()))},
-      {index(std::floor(last.x())), index(std::floor(last.y())), index(std::floor(last.z()))}};
-  const bool some = box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z;
-  return some ? std::optional<VoxelBox>(box) : std::nullopt;
-}
-
 void queryBox(const MapDocument& document, const QueryArguments& arguments) {
   const Eigen::Vector3d min = vectorAt(*arguments.box, 0);
   const Eigen::Vector3d max = vectorAt(*arguments.box, 3);
   const Grid& grid = document.map.grid();
   std::vector<std::size_t> voxels_of_class(document.labels.classes().size());
   Json voxels = Json::array();
-  if (const auto box = voxelsInside(grid, min, max)) {
+  if (const auto box = voxelsWithCenterIn(grid, Eigen::AlignedBox3d(min, max))) {
     document.map.forEachVoxelInBox(*box, [&](const VoxelIndex& index, const DirichletVoxel& v) {
       const ClassId best = v.mostLikelyClass();
       ++voxels_of_class[best];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <csom/io/Exporters.h>
+#include <csom/exports/PointFiles.h>
 #include <sys/resource.h>
 
 #include <csignal>
@@ -49,13 +49,14 @@ Number take(std::string& bytes) {
   return number;
 }
 
-class ExportersTest : public testing::TestWithParam<bool> {
+using Writer = std::size_t (*)(const VoxelSelection&, const LabelSet&, const std::string&);
+
+class PointFilesTest : public testing::TestWithParam<bool> {
  protected:
-  std::string exported(ExportFormat format) {
+  std::string exported(Writer write) {
     const std::string file = folder_ / "out";
-    const std::size_t count =
-        exportMap(map_, labels_, format, all_ ? ExportVoxels::Known : ExportVoxels::Occupied, file);
-    EXPECT_EQ(count, voxels_.size());
+    const VoxelSelection selection = VoxelSelection(map_).withFreeVoxels(all_);
+    EXPECT_EQ(write(selection, labels_, file), voxels_.size());
     return readBytes(file);
   }
 
@@ -66,16 +67,16 @@ class ExportersTest : public testing::TestWithParam<bool> {
   TempFolder folder_;
 };
 
-INSTANTIATE_TEST_SUITE_P(OccupiedAndAll, ExportersTest, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(OccupiedAndAll, PointFilesTest, testing::Bool());
 
-TEST_P(ExportersTest, SampleHasAllKindsOfVoxels) {
+TEST_P(PointFilesTest, SampleHasAllKindsOfVoxels) {
   std::set<ClassId> classes;
   for (const Expected& v : voxels_) classes.insert(v.class_id);
   EXPECT_EQ(classes, all_ ? (std::set<ClassId>{0, 1, 2}) : (std::set<ClassId>{1, 2}));
 }
 
-TEST_P(ExportersTest, CsvReadsBackExactly) {
-  std::string text = exported(ExportFormat::Csv);
+TEST_P(PointFilesTest, CsvReadsBackExactly) {
+  std::string text = exported(writeCsv);
   EXPECT_EQ(takeLine(text), "x,y,z,class_id,class_name,probability,variance,evidence");
   for (const Expected& v : voxels_) {
     std::string line = takeLine(text);
@@ -98,8 +99,8 @@ TEST_P(ExportersTest, CsvReadsBackExactly) {
   EXPECT_EQ(text, "");
 }
 
-TEST_P(ExportersTest, PlyReadsBack) {
-  std::string bytes = exported(ExportFormat::Ply);
+TEST_P(PointFilesTest, PlyReadsBack) {
+  std::string bytes = exported(writePly);
   std::vector<std::string> header;
   do header.push_back(takeLine(bytes));
   while (header.back() != "end_header" && header.size() < 30);
@@ -120,8 +121,8 @@ TEST_P(ExportersTest, PlyReadsBack) {
   EXPECT_EQ(bytes, "");
 }
 
-TEST_P(ExportersTest, PcdReadsBack) {
-  std::string bytes = exported(ExportFormat::Pcd);
+TEST_P(PointFilesTest, PcdReadsBack) {
+  std::string bytes = exported(writePcd);
   std::map<std::string, std::string> header;
   for (std::string line; line != "DATA binary";) {
     ASSERT_FALSE(bytes.empty());
@@ -147,40 +148,47 @@ TEST_P(ExportersTest, PcdReadsBack) {
   EXPECT_EQ(bytes, "");
 }
 
-const ExportFormat kFormats[] = {ExportFormat::Ply, ExportFormat::Pcd, ExportFormat::Csv};
+const Writer kWriters[] = {writePly, writePcd, writeCsv, writeNpz};
 
-TEST(Exporters, EmptyMapMakesAFileWithoutPoints) {
+TEST(PointFiles, NothingToExportIsAnError) {
   const TempFolder folder;
-  for (const ExportFormat format : kFormats)
-    EXPECT_EQ(exportMap(SemanticMap(), LabelSet::occupancy(), format, ExportVoxels::Known,
-                        folder / "empty"),
-              0U);
-  EXPECT_EQ(readBytes(folder / "empty"),
-            "x,y,z,class_id,class_name,probability,variance,evidence\n");
+  const SemanticMap empty;
+  for (const Writer write : kWriters) {
+    EXPECT_THROW(write(VoxelSelection(empty), LabelSet::occupancy(), folder / "empty"),
+                 ConfigError);
+  }
+  EXPECT_THAT(folder.fileNames(), testing::IsEmpty());
 }
 
-TEST(Exporters, LabelsMustFitTheMap) {
+TEST(PointFiles, LabelsMustFitTheMap) {
   const TempFolder folder;
-  EXPECT_THROW(exportMap(sampleMap(), LabelSet::occupancy(), ExportFormat::Ply, ExportVoxels::Known,
-                         folder / "a"),
+  const SemanticMap map = sampleMap();
+  EXPECT_THROW(writePly(VoxelSelection(map), LabelSet::occupancy(), folder / "a"),
                std::invalid_argument);
 }
 
-TEST(Exporters, FullDiskLeavesNothing) {
+TEST(PointFiles, SinglePrecisionIsRefusedWhereItMovesVoxels) {
+  const TempFolder folder;
+  const SemanticMap map = sampleMap();
+  const Eigen::Isometry3d far(Eigen::Translation3d(4e6, 0, 0));
+  EXPECT_THROW(writePcd(VoxelSelection(map, {}, far), sampleLabels(), folder / "a"), ConfigError);
+  EXPECT_THAT(folder.fileNames(), testing::IsEmpty());
+  EXPECT_GT(writePly(VoxelSelection(map, {}, far), sampleLabels(), folder / "a"), 0U);
+}
+
+TEST(PointFiles, FullDiskLeavesNothing) {
   const TempFolder folder;
   struct rlimit limit {};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
   const struct rlimit small { 1000, limit.rlim_max };
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
-  for (const ExportFormat format : kFormats) {
-    EXPECT_THAT(fileErrorOf([&] {
-                  exportMap(sampleMap(), sampleLabels(), format, ExportVoxels::Known, "/dev/full");
-                }),
+  const SemanticMap map = sampleMap();
+  const VoxelSelection voxels = VoxelSelection(map).withFreeVoxels(true);
+  for (const Writer write : {writePly, writePcd, writeCsv}) {
+    EXPECT_THAT(fileErrorOf([&] { write(voxels, sampleLabels(), "/dev/full"); }),
                 HasSubstr("/dev/full: cannot be written: No space left on device"));
     ::setrlimit(RLIMIT_FSIZE, &small);
-    const std::string message = fileErrorOf([&] {
-      exportMap(sampleMap(), sampleLabels(), format, ExportVoxels::Known, folder / "out");
-    });
+    const std::string message = fileErrorOf([&] { write(voxels, sampleLabels(), folder / "out"); });
     ::setrlimit(RLIMIT_FSIZE, &limit);
     EXPECT_THAT(message, HasSubstr("/out: cannot be written: File too large"));
     EXPECT_THAT(folder.fileNames(), testing::IsEmpty());
