@@ -10,6 +10,7 @@
 #include "CameraSections.h"
 #include "Html.h"
 #include "TimingSummary.h"
+#include "Viewer.h"
 
 namespace csom {
 
@@ -239,11 +240,13 @@ void writeParameters(std::ostream& page, const std::vector<Parameter>& parameter
 
 }  // namespace
 
-std::string htmlReport(const RunRecord& record, const MapFigures& figures,
-                       const std::vector<std::uint8_t>& top_view) {
+std::string htmlReport(const RunRecord& record, const MapDocument& document,
+                       const MapFigures& figures, const std::vector<std::uint8_t>& top_view) {
+  const std::string viewer = viewerSection(document, record);
   std::ostringstream page;
   writeSummary(page, record, figures);
   writeFigures(page, record, figures);
+  page << viewer;
   writeTopView(page, figures, top_view);
   writeCameraPictures(page, record, figures);
   writeClasses(page, figures);
@@ -255,7 +258,9 @@ std::string htmlReport(const RunRecord& record, const MapFigures& figures,
   writeWarnings(page, record.warnings);
   writeOrigin(page, record, figures);
   writeParameters(page, record.parameters);
-  return toHtml(HtmlPage{titleOf(record), page.str()});
+  HtmlPage html{titleOf(record), page.str()};
+  html.viewer = !viewer.empty();
+  return toHtml(html);
 }
 
 }  // namespace csom

@@ -62,7 +62,7 @@ void writeReport(const RunRecord& record, const MapDocument& document, const Map
   const std::vector<std::uint8_t> top_view = topViewPng(document, view);
   if (options.png) writeFile(base / "top.png", top_view.data(), top_view.size());
   if (options.html) {
-    const std::string page = htmlReport(record, figures, top_view);
+    const std::string page = htmlReport(record, document, figures, top_view);
     writeFile(base / "report.html", page.data(), page.size());
   }
 }

@@ -16,6 +16,11 @@ struct WebAsset {
 extern const WebAsset kReportStyle;
 extern const WebAsset kChartLibrary;  ///< chart.js
 extern const WebAsset kChartScript;
+extern const WebAsset kThreeLibrary;  ///< three.js
+extern const WebAsset kOrbitControls;
+extern const WebAsset kViewerMarkup;
+extern const WebAsset kVoxelsScript;
+extern const WebAsset kViewerScript;
 
 /// <script>…</script>
 std::string scriptElement(const WebAsset& script);

@@ -10,6 +10,7 @@ struct HtmlPage {
   std::string title;
   std::string body;     ///< HTML behind the heading; whoever writes it escapes
   bool charts = false;  ///< the body has charts (see Chart.h)
+  bool viewer = false;  ///< the body has a map to look at from all sides
 };
 
 /// HTML 5 text with the style sheet of all pages, and the scripts that its parts need. The page

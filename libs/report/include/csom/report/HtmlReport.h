@@ -2,6 +2,7 @@
 // One self-contained page about one run.
 #pragma once
 
+#include <csom/io/MapFile.h>
 #include <csom/report/MapFigures.h>
 #include <csom/report/RunRecord.h>
 
@@ -11,9 +12,10 @@
 
 namespace csom {
 
-/// HTML 5 text that needs nothing else: no script, no network, pictures inside. `top_view` is a PNG
-/// file; if empty, the page has no picture. Every text of the record is escaped.
-std::string htmlReport(const RunRecord& record, const MapFigures& figures,
-                       const std::vector<std::uint8_t>& top_view);
+/// HTML 5 text that needs nothing else: no network, and the pictures, the voxels and the scripts that
+/// show them inside. `figures` are those of the document. `top_view` is a PNG file; if empty, the
+/// page has no such picture. Every text of the record is escaped.
+std::string htmlReport(const RunRecord& record, const MapDocument& document,
+                       const MapFigures& figures, const std::vector<std::uint8_t>& top_view);
 
 }  // namespace csom

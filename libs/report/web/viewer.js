@@ -1,0 +1,691 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The map in three dimensions: three.js draws the faces of voxels.js, the controls of viewer.html
+// say which.
+'use strict';
+(() => {
+  const {VoxelModel, TILE, COARSEST, MOST_FACES} = window.csom;
+  const REST_FACES = 3e6;  // of a picture that stands still
+  const LEAST_FACES = 1e5;  // of one that moves, however slow the machine
+  const SLICE_MS = 40;  // of making faces between two pictures
+  const SETTLE_MS = 250;  // without a movement
+  const CLICK_PIXELS = 5;
+
+  // Viridis, the colour map that also people with colour-blind eyes can read.
+  const RAMP = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141],
+    [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
+
+  const VERTEX_SHADER = `
+    precision highp float;
+    uniform mat4 modelViewMatrix, projectionMatrix;
+    uniform sampler2D colors;
+    uniform vec4 channel;      // which byte of the values is the colour's
+    uniform vec4 heightScale;  // or how a place becomes one
+    uniform vec3 tilePlace;
+    uniform float shades[6];
+    attribute vec4 position, values;  // x, y, z, direction
+    varying vec3 color;
+    void main() {
+      float random = floor(position.w / 8.0);
+      int direction = int(position.w - 8.0 * random + 0.5);
+      float height = dot(heightScale, vec4(position.xyz + tilePlace, 1.0));
+      float index = clamp(dot(channel, values) + height, 0.0, 255.0);
+      vec3 base = texture2D(colors, vec2((index + 0.5) / 256.0, 0.5)).rgb;
+      float shade = 1.0;
+      for (int i = 0; i < 6; ++i) if (i == direction) shade = shades[i];
+      color = base * shade * (0.955 + random * 0.0015);
+      gl_Position = projectionMatrix * modelViewMatrix * vec4(position.xyz, 1.0);
+    }`;
+  const FRAGMENT_SHADER = `
+    precision mediump float;
+    varying vec3 color;
+    void main() { gl_FragColor = vec4(color, 1.0); }`;
+
+  const format = (value, digits = 3) => {
+    if (value !== 0 && Math.abs(value) < 1e-3) return value.toExponential(1);
+    return Number(value.toPrecision(digits)).toLocaleString('en');
+  };
+  const count = (number) => number.toLocaleString('en');
+
+  /** Positions are in voxels, relative to the middle of the map, so that they stay exact. */
+  class Scene {
+    constructor(canvas, model) {
+      this.model = model;
+      this.canvas = canvas;
+      this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: true});
+      this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+      this.scene = new THREE.Scene();
+      this.camera = new THREE.PerspectiveCamera(40, 1, 1, 1000);
+      const {axis, sign} = model.header.up;
+      this.camera.up.set(0, 0, 0).setComponent(axis, sign);
+      this.readFocus();
+      this.makeMaterial(axis, sign);
+      this.addTiles();
+      this.addMarker();
+      this.addControls();
+      this.movingFaces = REST_FACES / 2;
+      this.lastMove = -Infinity;
+      this.wanted = false;
+      this.lookFrom('oblique');
+      new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+    }
+
+    readFocus() {
+      const {low, high} = this.model.header.focus;
+      this.middle = low.map((l, i) => (l + high[i]) / 2);
+      this.radius = Math.max(0.5 * Math.hypot(...high.map((h, i) => h - low[i])), 4);
+    }
+
+    makeMaterial(axis, sign) {
+      // Light from above, and from one side.
+      const shades = [0.86, 0.76, 0.82, 0.7, 0.86, 0.76];
+      shades[2 * axis + (sign > 0 ? 0 : 1)] = 1;
+      shades[2 * axis + (sign > 0 ? 1 : 0)] = 0.55;
+      this.texture = new THREE.DataTexture(new Uint8Array(256 * 4), 256, 1, THREE.RGBAFormat);
+      this.uniforms = {
+        colors: {value: this.texture},
+        channel: {value: new THREE.Vector4()},
+        heightScale: {value: new THREE.Vector4()},
+        shades: {value: shades},
+      };
+    }
+
+    addTiles() {
+      const corners = new Uint32Array(MOST_FACES * 6);
+      for (let face = 0; face < MOST_FACES; ++face) {
+        corners.set([0, 1, 2, 0, 2, 3].map((corner) => 4 * face + corner), 6 * face);
+      }
+      this.corners = new THREE.BufferAttribute(corners, 1);
+      const half = TILE / 2;
+      this.sphere =
+          new THREE.Sphere(new THREE.Vector3(half, half, half), Math.sqrt(3) * half);
+      this.drawn = new Map();
+      for (const tile of this.model.tiles) {
+        const place = Array.from(tile.place, (p) => p * TILE);
+        const material = new THREE.RawShaderMaterial({
+          vertexShader: VERTEX_SHADER, fragmentShader: FRAGMENT_SHADER,
+          uniforms: {...this.uniforms, tilePlace: {value: new THREE.Vector3(...place)}},
+        });
+        const position =
+            new THREE.Vector3(...place.map((p, i) => p - this.middle[i]));
+        const middle = position.clone().addScalar(half);
+        this.drawn.set(tile, {meshes: [], stale: [], material, position, middle, level: -1});
+      }
+    }
+
+    addMarker() {
+      const box = new THREE.EdgesGeometry(new THREE.BoxBufferGeometry(1, 1, 1));
+      this.marker = new THREE.Group();
+      // White on black shows on any colour.
+      for (const [color, size] of [[0x000000, 1.12], [0xffffff, 1.06]]) {
+        const line = new THREE.LineSegments(
+            box, new THREE.LineBasicMaterial({color, depthTest: false, transparent: true}));
+        line.scale.setScalar(size);
+        this.marker.add(line);
+      }
+      this.marker.visible = false;
+      this.scene.add(this.marker);
+    }
+
+    addControls() {
+      this.controls = new THREE.OrbitControls(this.camera, this.canvas);
+      this.controls.enableKeys = false;  // they would take the arrow keys from the whole page
+      this.controls.screenSpacePanning = true;
+      // The wheel scrolls the page until the picture has the focus.
+      this.controls.enableZoom = false;
+      this.canvas.addEventListener('focus', () => { this.controls.enableZoom = true; });
+      this.canvas.addEventListener('blur', () => { this.controls.enableZoom = false; });
+      this.canvas.addEventListener('touchstart', () => this.canvas.focus());
+      this.controls.addEventListener('start', () => { this.view = undefined; });
+      this.controls.addEventListener('change', () => {
+        this.lastMove = performance.now();
+        this.request();
+      });
+    }
+
+    addTrajectories(trajectories) {
+      this.path = new THREE.Group();
+      const radius = Math.max(0.25, this.radius / 350);
+      const material = new THREE.MeshBasicMaterial({color: 0xe4002b});
+      const outline = new THREE.MeshBasicMaterial({color: 0xffffff, side: THREE.BackSide});
+      for (const points of trajectories) {
+        const curve = new THREE.CatmullRomCurve3(
+            points.map((p) => new THREE.Vector3(...p.map((c, i) => c - this.middle[i]))), false,
+            'centripetal');
+        // By number of point, not by length, which would round corners off.
+        curve.getPointAt = curve.getPoint;
+        curve.getTangentAt = curve.getTangent;
+        const steps = 2 * (points.length - 1);
+        this.path.add(
+            new THREE.Mesh(new THREE.TubeBufferGeometry(curve, steps, radius, 6), material),
+            new THREE.Mesh(new THREE.TubeBufferGeometry(curve, steps, 1.6 * radius, 6), outline));
+        const start = new THREE.Mesh(new THREE.SphereBufferGeometry(3 * radius, 12, 8), material);
+        start.position.copy(curve.points[0]);
+        this.path.add(start);
+      }
+      this.scene.add(this.path);
+    }
+
+    setColors(bytes, channel, heightScale) {
+      this.texture.image.data.set(bytes);
+      this.texture.needsUpdate = true;
+      this.uniforms.channel.value.set(...channel);
+      this.uniforms.heightScale.value.set(...heightScale);
+      this.request();
+    }
+
+    lookFrom(view) {
+      this.view = view;
+      const {axis, sign} = this.model.header.up;
+      const up = new THREE.Vector3().setComponent(axis, sign);
+      const right = new THREE.Vector3().setComponent(axis === 0 ? 1 : 0, 1);
+      const ahead = new THREE.Vector3().crossVectors(up, right);
+      const direction = {
+        // Not quite from above: there, left and right would have no meaning.
+        top: up.clone().addScaledVector(ahead, -1e-3),
+        front: ahead.clone().negate(),
+        side: right.clone(),
+        oblique: up.clone().multiplyScalar(0.75).addScaledVector(ahead, -0.8)
+            .addScaledVector(right, -0.45),
+      }[view].normalize();
+      const distance = this.distanceFor(direction);
+      this.controls.target.set(0, 0, 0);
+      this.camera.position.copy(direction).multiplyScalar(distance);
+      this.controls.update();
+      this.request();
+    }
+
+    /** From which the focus of the map fills the picture. */
+    distanceFor(direction) {
+      const {low, high} = this.model.header.focus;
+      const camera = new THREE.Matrix4().lookAt(direction, new THREE.Vector3(), this.camera.up);
+      const toCamera = new THREE.Matrix4().getInverse(camera);
+      const vertical = Math.tan(this.camera.fov * Math.PI / 360);
+      let distance = 4;
+      for (let corner = 0; corner < 8; ++corner) {
+        const place = [0, 1, 2].map((i) => (corner >> i & 1 ? high : low)[i] - this.middle[i]);
+        const {x, y, z} = new THREE.Vector3(...place).applyMatrix4(toCamera);
+        const across = Math.max(Math.abs(x) / this.camera.aspect, Math.abs(y));
+        distance = Math.max(distance, z + 1.04 * across / vertical);
+      }
+      return distance;
+    }
+
+    turn(horizontal, vertical) {
+      this.view = undefined;
+      const toPole = new THREE.Quaternion().setFromUnitVectors(
+          this.camera.up, new THREE.Vector3(0, 1, 0));
+      const offset = this.camera.position.clone().sub(this.controls.target).applyQuaternion(toPole);
+      const angles = new THREE.Spherical().setFromVector3(offset);
+      angles.theta += horizontal;
+      angles.phi = Math.min(Math.max(angles.phi + vertical, 1e-3), Math.PI - 1e-3);
+      offset.setFromSpherical(angles).applyQuaternion(toPole.clone().inverse());
+      this.camera.position.copy(this.controls.target).add(offset);
+      this.controls.update();
+    }
+
+    /** By shares of the distance, as seen on the screen. */
+    move(right, up) {
+      this.view = undefined;
+      const distance = this.camera.position.distanceTo(this.controls.target);
+      const step = new THREE.Vector3(right * distance, up * distance, 0)
+          .applyQuaternion(this.camera.quaternion);
+      this.camera.position.add(step);
+      this.controls.target.add(step);
+      this.controls.update();
+    }
+
+    zoom(factor) {
+      this.view = undefined;
+      const offset = this.camera.position.clone().sub(this.controls.target);
+      this.camera.position.copy(this.controls.target).addScaledVector(offset, factor);
+      this.controls.update();
+    }
+
+    /** The faces of these tiles have changed. */
+    renew(tiles) {
+      for (const tile of tiles) this.drawn.get(tile).stale = [true, true, true];
+      this.request();
+    }
+
+    request() {
+      if (this.wanted) return;
+      this.wanted = true;
+      requestAnimationFrame(() => {
+        this.wanted = false;
+        this.draw();
+      });
+    }
+
+    resize() {
+      const {clientWidth, clientHeight} = this.canvas.parentElement;
+      if (clientWidth === 0 || clientHeight === 0) return;
+      this.renderer.setSize(clientWidth, clientHeight, false);
+      this.camera.aspect = clientWidth / clientHeight;
+      this.camera.updateProjectionMatrix();
+      if (this.view) this.lookFrom(this.view);
+      this.request();
+    }
+
+    faceCount(tile, level) {
+      const drawn = this.drawn.get(tile);
+      if (drawn.meshes[level] && !drawn.stale[level]) return drawn.meshes[level].userData.faces;
+      return 2 * tile.visibleCount / 4 ** level;
+    }
+
+    /** Chooses a level of detail for each tile in view. Finer ones near, within the budget. */
+    chooseLevels(budget) {
+      const frustum = new THREE.Frustum().setFromMatrix(new THREE.Matrix4().multiplyMatrices(
+          this.camera.projectionMatrix, this.camera.matrixWorldInverse));
+      const pixels = this.renderer.getDrawingBufferSize(new THREE.Vector2()).y /
+          (2 * Math.tan(this.camera.fov * Math.PI / 360));
+      const inView = [];
+      for (const [tile, drawn] of this.drawn) {
+        drawn.level = -1;
+        if (tile.visibleCount === 0) continue;
+        const sphere = new THREE.Sphere(drawn.middle, this.sphere.radius);
+        if (!frustum.intersectsSphere(sphere)) continue;
+        const distance =
+            Math.max(this.camera.position.distanceTo(drawn.middle) - TILE / 2, TILE / 2);
+        inView.push({tile, drawn, pixelsOfVoxel: pixels / distance});
+      }
+      inView.sort((a, b) => b.pixelsOfVoxel - a.pixelsOfVoxel);
+      for (let least = 0.6;; least *= 1.25) {
+        let faces = 0;
+        for (const {tile, drawn, pixelsOfVoxel} of inView) {
+          const level = Math.ceil(Math.log2(least / pixelsOfVoxel));
+          drawn.level = Math.min(Math.max(level, 0), COARSEST);
+          faces += this.faceCount(tile, drawn.level);
+        }
+        if (faces <= budget || least > 1e4) break;
+      }
+      return inView;
+    }
+
+    make(tile, drawn, level) {
+      const old = drawn.meshes[level];
+      if (old) {
+        this.scene.remove(old);
+        old.geometry.setIndex(null);  // that of all tiles, which stays
+        old.geometry.dispose();
+      }
+      const {places, values} = this.model.faces(tile, level);
+      const bytes = (words) => new THREE.BufferAttribute(new Uint8Array(words.buffer), 4);
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute('position', bytes(places));
+      geometry.setAttribute('values', bytes(values));
+      geometry.setIndex(this.corners);
+      geometry.setDrawRange(0, places.length / 4 * 6);
+      geometry.boundingSphere = this.sphere;
+      const mesh = new THREE.Mesh(geometry, drawn.material);
+      mesh.userData.faces = places.length / 4;
+      mesh.position.copy(drawn.position);
+      mesh.matrixAutoUpdate = false;
+      mesh.updateMatrix();
+      drawn.meshes[level] = mesh;
+      drawn.stale[level] = false;
+      this.scene.add(mesh);
+    }
+
+    /** Makes missing faces, the coarse ones first, for a while. True if all are there. */
+    makeFaces(inView) {
+      const end = performance.now() + SLICE_MS;
+      for (const exact of [false, true]) {
+        for (const {tile, drawn} of inView) {
+          const level = exact ? drawn.level : COARSEST;
+          if (drawn.meshes[level] && !drawn.stale[level]) continue;
+          if (!exact && this.isReady(drawn, drawn.level)) continue;
+          this.make(tile, drawn, level);
+          if (exact && performance.now() > end) return false;
+        }
+      }
+      return true;
+    }
+
+    isReady(drawn, level) {
+      return drawn.meshes[level] !== undefined && !drawn.stale[level];
+    }
+
+    /** The level that the picture shows of a tile. */
+    shownLevel(drawn) {
+      return this.isReady(drawn, drawn.level) ? drawn.level : COARSEST;
+    }
+
+    draw() {
+      const start = performance.now();
+      const moving = start - this.lastMove < SETTLE_MS;
+      this.camera.updateMatrixWorld();
+      const inView = this.chooseLevels(moving ? this.movingFaces : REST_FACES);
+      const complete = this.makeFaces(inView);
+      const shown = new Set();
+      for (const {drawn} of inView) shown.add(drawn.meshes[this.shownLevel(drawn)]);
+      for (const drawn of this.drawn.values()) {
+        for (const mesh of drawn.meshes) if (mesh) mesh.visible = shown.has(mesh);
+      }
+      const distance = this.camera.position.length();
+      this.camera.far = distance + 4 * this.radius + 2 * TILE;
+      this.camera.near = Math.max(0.2, (distance - 2 * this.radius) / 2);
+      this.camera.updateProjectionMatrix();
+      this.renderer.render(this.scene, this.camera);
+      this.coarsest = Math.max(0, ...inView.map(({drawn}) => this.shownLevel(drawn)));
+      if (this.onDrawn) this.onDrawn();
+
+      if (!complete) this.request();
+      if (!moving) return;
+      this.adaptTo(start);
+      clearTimeout(this.settling);
+      this.settling = setTimeout(() => this.request(), SETTLE_MS + 10);
+    }
+
+    /** As many faces as this machine draws in a twentieth of a second. */
+    adaptTo(start) {
+      const elapsed = start - (this.lastDraw || 0);
+      this.lastDraw = start;
+      if (elapsed > 500) return;  // the first picture of a movement
+      if (elapsed > 60) this.movingFaces = Math.max(LEAST_FACES, 0.7 * this.movingFaces);
+      if (elapsed < 30) this.movingFaces = Math.min(REST_FACES, 1.1 * this.movingFaces);
+    }
+
+    /** What is at a point of the canvas [CSS pixels]; undefined if nothing is. */
+    pick(x, y) {
+      const {clientWidth, clientHeight} = this.canvas;
+      const ray = new THREE.Raycaster();
+      ray.setFromCamera(
+          {x: 2 * x / clientWidth - 1, y: 1 - 2 * y / clientHeight}, this.camera);
+      const origin = ray.ray.origin.toArray().map((c, i) => c + this.middle[i]);
+      return this.model.cast(
+          origin, ray.ray.direction.toArray(), (tile) => this.shownLevel(this.drawn.get(tile)));
+    }
+
+    mark(hit) {
+      this.marker.visible = hit !== undefined;
+      if (hit) {
+        this.marker.position.set(
+            ...hit.corner.map((c, i) => c + hit.size / 2 - this.middle[i]));
+        this.marker.scale.setScalar(hit.size);
+      }
+      this.request();
+    }
+  }
+
+  /** Reads the controls of the page and writes what the picture shows. */
+  class Panel {
+    constructor(section, header, model) {
+      this.section = section;
+      this.header = header;
+      this.model = model;
+      this.scene = new Scene(this.find('canvas'), model);
+      this.scene.addTrajectories(header.trajectories);
+      this.shown = [];
+      this.addClasses();
+      this.addSlice();
+      this.addButtons();
+      this.addPicking();
+      this.find('#viewer-color').addEventListener('change', () => this.color());
+      this.find('#viewer-trajectory').addEventListener('change', (event) => {
+        this.scene.path.visible = event.target.checked;
+        this.scene.request();
+      });
+      if (header.trajectories.length === 0) this.find('.trajectory').hidden = true;
+      this.scene.onDrawn = () => this.tellCount();
+      this.color();
+      this.show();
+    }
+
+    find(selector) {
+      return this.section.querySelector(selector);
+    }
+
+    addClasses() {
+      const list = this.find('.classes ul');
+      for (const {id, name, color, voxels} of this.header.classes) {
+        this.shown[id] = true;
+        const box = document.createElement('input');
+        box.type = 'checkbox';
+        box.checked = true;
+        box.dataset.class = id;
+        box.addEventListener('change', () => {
+          this.shown[id] = box.checked;
+          this.show();
+        });
+        list.append(this.classLine(box, color, name, count(voxels)));
+      }
+      for (const button of this.section.querySelectorAll('[data-classes]')) {
+        button.addEventListener('click', () => {
+          for (const box of list.querySelectorAll('input')) {
+            box.checked = button.dataset.classes === 'all';
+            this.shown[box.dataset.class] = box.checked;
+          }
+          this.show();
+        });
+      }
+    }
+
+    classLine(box, color, name, voxels) {
+      const line = document.createElement('li');
+      const label = document.createElement('label');
+      const number = document.createElement('span');
+      number.className = 'number';
+      number.textContent = voxels;
+      label.append(box, this.swatch(color), name);
+      line.append(label, number);
+      return line;
+    }
+
+    swatch(color) {
+      const swatch = document.createElement('span');
+      swatch.className = 'swatch';
+      swatch.style.background = `rgb(${color.join()})`;
+      return swatch;
+    }
+
+    /** Height of a layer's lower face [m]. */
+    heightOf(layer) {
+      return layer * this.header.resolution;
+    }
+
+    addSlice() {
+      const {low, high} = this.header.layers;
+      for (const id of ['lowest', 'highest']) {
+        const slider = this.find(`#viewer-${id}`);
+        Object.assign(slider, {min: low, max: high, step: 1});
+        slider.value = id === 'lowest' ? low : high;
+        slider.addEventListener('input', () => {
+          // Each pushes the other along.
+          const other = this.find(`#viewer-${id === 'lowest' ? 'highest' : 'lowest'}`);
+          const crossed = id === 'lowest' ? +slider.value > +other.value :
+            +slider.value < +other.value;
+          if (crossed) other.value = slider.value;
+          this.showSoon();
+        });
+      }
+    }
+
+    addButtons() {
+      for (const button of this.section.querySelectorAll('[data-view]')) {
+        button.addEventListener('click', () => {
+          if (button.dataset.view !== 'full') return this.scene.lookFrom(button.dataset.view);
+          if (document.fullscreenElement) return document.exitFullscreen();
+          return this.section.requestFullscreen();
+        });
+      }
+      const full = this.find('[data-view="full"]');
+      full.hidden = !document.fullscreenEnabled;
+      document.addEventListener('fullscreenchange', () =>
+        full.setAttribute('aria-pressed', String(document.fullscreenElement !== null)));
+    }
+
+    addPicking() {
+      const canvas = this.find('canvas');
+      let down;
+      canvas.addEventListener('pointerdown', (event) => { down = event; });
+      canvas.addEventListener('pointerup', (event) => {
+        const moved = down ? Math.hypot(event.x - down.x, event.y - down.y) : Infinity;
+        down = undefined;
+        if (moved > CLICK_PIXELS || event.button !== 0) return;
+        this.choose(this.scene.pick(event.offsetX, event.offsetY));
+      });
+      canvas.addEventListener('keydown', (event) => this.press(event));
+      this.find('.voxel .close').addEventListener('click', () => this.choose(undefined));
+    }
+
+    press(event) {
+      if (event.ctrlKey || event.altKey || event.metaKey) return;
+      const canvas = event.target;
+      const arrows = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
+      const arrow = arrows[event.key];
+      if (arrow && event.shiftKey) this.scene.move(0.05 * arrow[0], 0.05 * arrow[1]);
+      else if (arrow) this.scene.turn(0.1 * arrow[0], -0.1 * arrow[1]);
+      else if (event.key === '+' || event.key === '=') this.scene.zoom(0.85);
+      else if (event.key === '-') this.scene.zoom(1 / 0.85);
+      else if (event.key === '0') this.scene.lookFrom('oblique');
+      else if (event.key === 'Enter')
+        this.choose(this.scene.pick(canvas.clientWidth / 2, canvas.clientHeight / 2));
+      else if (event.key === 'Escape') this.choose(undefined);
+      else return;
+      event.preventDefault();
+    }
+
+    /** At the next picture: a slider tells more positions than can be drawn. */
+    showSoon() {
+      if (this.showing) return;
+      this.showing = true;
+      requestAnimationFrame(() => {
+        this.showing = false;
+        this.show();
+      });
+    }
+
+    show() {
+      const layer = (id) => Number(this.find(`#viewer-${id}`).value);
+      const [low, high] = [layer('lowest'), layer('highest')];
+      const {sign} = this.header.up;
+      const index = (l) => sign > 0 ? l : -l - 1;
+      this.scene.renew(this.model.show(
+          this.shown, Math.min(index(low), index(high)), Math.max(index(low), index(high))));
+      this.find('#viewer-lowest').closest('label').querySelector('output').textContent =
+          `${format(this.heightOf(low))} m`;
+      this.find('#viewer-highest').closest('label').querySelector('output').textContent =
+          `${format(this.heightOf(high + 1))} m`;
+      this.tellCount();
+    }
+
+    tellCount() {
+      const size = this.header.voxelsPerCube;
+      const what = size > 1 ? `cubes of ${size}×${size}×${size} voxels` : 'occupied voxels';
+      const detail = 2 ** (this.scene.coarsest || 0);
+      const coarse = detail > 1 ? ` Far ones are drawn up to ${detail}×${detail}×${detail} at a ` +
+          'time; come nearer for all of them.' : '';
+      const text = `You are looking at ${count(this.model.visibleCount)} of ` +
+          `${count(this.header.voxels)} ${what}.${coarse}`;
+      const line = this.find('.count');
+      if (line.textContent !== text) line.textContent = text;
+    }
+
+    color() {
+      const mode = this.find('#viewer-color').value;
+      const bytes = new Uint8Array(256 * 4);
+      const scale = this.find('.scale');
+      scale.hidden = mode === 'class';
+      if (mode === 'class') {
+        for (const {id, color} of this.header.classes) bytes.set([...color, 255], 4 * id);
+      } else {
+        for (let i = 0; i < 256; ++i) {
+          const at = i / 255 * (RAMP.length - 1);
+          const from = Math.min(Math.floor(at), RAMP.length - 2);
+          const mixed = RAMP[from].map((c, k) => c + (RAMP[from + 1][k] - c) * (at - from));
+          bytes.set([...mixed, 255], 4 * i);
+        }
+        scale.querySelector('.ramp').style.background =
+            `linear-gradient(to right, ${RAMP.map((c) => `rgb(${c.join()})`).join()})`;
+        const [low, high] = this.rangeOf(mode);
+        scale.querySelector('.low').textContent = low;
+        scale.querySelector('.high').textContent = high;
+      }
+      const bytesOf = ['class', 'probability', 'variance', 'evidence'];
+      const channel = bytesOf.map((name) => (name === mode ? 1 : 0));
+      this.scene.setColors(bytes, channel, mode === 'height' ? this.heightScale() : [0, 0, 0, 0]);
+    }
+
+    heightScale() {
+      const {axis, sign} = this.header.up;
+      const {low, high} = this.header.layers;
+      const scale = 255 / (high + 1 - low);
+      const factors = [0, 0, 0, -low * scale];
+      factors[axis] = sign * scale;
+      return factors;
+    }
+
+    rangeOf(mode) {
+      if (mode === 'probability') return ['0', '1'];
+      if (mode === 'height') {
+        const {low, high} = this.header.layers;
+        return [`${format(this.heightOf(low))} m`, `${format(this.heightOf(high + 1))} m`];
+      }
+      const {min, max} = this.header[mode];
+      return [format(min), `${format(max)} (logarithmic)`];
+    }
+
+    choose(hit) {
+      this.scene.mark(hit);
+      const box = this.find('.voxel');
+      box.hidden = hit === undefined;
+      if (hit) this.tellVoxel(box.querySelector('.content'), hit);
+    }
+
+    tellVoxel(content, hit) {
+      const table = document.createElement('table');
+      let rest = 1;
+      for (const {id, probability} of this.model.classVector(hit.voxel)) {
+        const {name, color} = this.header.classNames[id];
+        table.append(this.vectorRow(this.swatch(color), name, probability));
+        rest -= probability;
+      }
+      if (rest > 0.005) table.append(this.vectorRow('', 'all others together', rest));
+      const half = hit.size / 2;
+      const place = hit.corner.map((c) => format((c + half) * this.header.resolution, 4));
+      const note = document.createElement('p');
+      note.textContent = `At ${place.join(', ')} m. Evidence ` +
+          `${format(this.model.evidence(hit.voxel))}, variance ` +
+          `${format(this.model.variance(hit.voxel))}.` +
+          (hit.size > 1 ? ' The best known voxel of this cube; come nearer for the others.' : '');
+      content.replaceChildren(table, note);
+    }
+
+    vectorRow(swatch, name, probability) {
+      const row = document.createElement('tr');
+      const cell = (...parts) => {
+        const data = document.createElement('td');
+        data.append(...parts);
+        row.append(data);
+        return data;
+      };
+      cell(swatch, name).className = 'text';
+      const bar = document.createElement('span');
+      bar.style.width = `${100 * probability}%`;
+      cell(bar).className = 'bar';
+      cell(`${(100 * probability).toFixed(1)} %`);
+      return row;
+    }
+  }
+
+  async function open() {
+    const section = document.getElementById('viewer');
+    const status = section.querySelector('.status');
+    status.textContent = 'Unpacking the map …';
+    try {
+      const header = JSON.parse(document.getElementById('viewer-header').textContent);
+      const data = document.getElementById('viewer-data');
+      const model = await VoxelModel.unpack(header, data.textContent.trim());
+      data.remove();  // megabytes of text
+      new Panel(section, header, model);
+      status.remove();
+    } catch (error) {
+      status.textContent = 'This browser cannot show the map in three dimensions: it has no WebGL ' +
+          'or is older than 2023. The pictures below show the same map.';
+      section.classList.add('failed');
+      console.warn(error);
+    }
+  }
+
+  open();
+})();
