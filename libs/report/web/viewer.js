@@ -187,27 +187,46 @@
         oblique: up.clone().multiplyScalar(0.75).addScaledVector(ahead, -0.8)
             .addScaledVector(right, -0.45),
       }[view].normalize();
-      const distance = this.distanceFor(direction);
-      this.controls.target.set(0, 0, 0);
-      this.camera.position.copy(direction).multiplyScalar(distance);
+      this.frame(direction);
       this.controls.update();
       this.request();
     }
 
-    /** From which the focus of the map fills the picture. */
-    distanceFor(direction) {
-      const {low, high} = this.model.header.focus;
-      const camera = new THREE.Matrix4().lookAt(direction, new THREE.Vector3(), this.camera.up);
-      const toCamera = new THREE.Matrix4().getInverse(camera);
-      const vertical = Math.tan(this.camera.fov * Math.PI / 360);
-      let distance = 4;
-      for (let corner = 0; corner < 8; ++corner) {
-        const place = [0, 1, 2].map((i) => (corner >> i & 1 ? high : low)[i] - this.middle[i]);
-        const {x, y, z} = new THREE.Vector3(...place).applyMatrix4(toCamera);
-        const across = Math.max(Math.abs(x) / this.camera.aspect, Math.abs(y));
-        distance = Math.max(distance, z + 1.04 * across / vertical);
+    /** Looks along `direction` from where the tiles in the focus of the map fill the picture. */
+    frame(direction) {
+      const axes = new THREE.Matrix4().lookAt(direction, new THREE.Vector3(), this.camera.up);
+      const toAxes = new THREE.Matrix4().getInverse(axes);
+      const vertical = 0.96 * Math.tan(this.camera.fov * Math.PI / 360);
+      const slopes = [vertical * this.camera.aspect, vertical];
+      // How far away the camera must be for a side of the picture not to cut the map.
+      const least = [[-Infinity, -Infinity], [-Infinity, -Infinity]];
+      const point = new THREE.Vector3();
+      for (const corner of this.cornersOfFocus()) {
+        const {x, y, z} = point.set(...corner).applyMatrix4(toAxes);
+        [x, y].forEach((across, i) => {
+          least[i][0] = Math.max(least[i][0], z - across / slopes[i]);
+          least[i][1] = Math.max(least[i][1], z + across / slopes[i]);
+        });
       }
-      return distance;
+      const [right, up] = least.map(([a, b], i) => slopes[i] * (b - a) / 2);
+      const distance = Math.max(...least.map(([a, b]) => (a + b) / 2));
+      this.controls.target.set(right, up, 0).applyMatrix4(axes);
+      this.camera.position.set(right, up, Math.max(distance, 4)).applyMatrix4(axes);
+    }
+
+    cornersOfFocus() {
+      const {low, high} = this.model.header.focus;
+      const corners = [];
+      for (const tile of this.model.tiles) {
+        const from = low.map((l, i) => Math.max(l, tile.place[i] * TILE));
+        const to = high.map((h, i) => Math.min(h, (tile.place[i] + 1) * TILE));
+        if (from.some((f, i) => f >= to[i])) continue;
+        for (let corner = 0; corner < 8; ++corner) {
+          corners.push(
+              this.middle.map((m, i) => (corner >> i & 1 ? to : from)[i] - m));
+        }
+      }
+      return corners;
     }
 
     turn(horizontal, vertical) {
