@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // csom export: a map in the formats of other programs.
 #include <csom/core/Error.h>
+#include <csom/exports/NavigationFiles.h>
 #include <csom/exports/OctomapFile.h>
 #include <csom/exports/PointFiles.h>
 #include <csom/io/MapFile.h>
@@ -23,14 +24,12 @@ namespace csom {
 
 namespace {
 
-enum class ExportFormat { Ply, Pcd, Csv, Npz, Octomap };
+enum class ExportFormat { Ply, Pcd, Csv, Npz, Octomap, Nav2 };
 
 const std::map<std::string, ExportFormat>& formats() {
-  static const std::map<std::string, ExportFormat> words{{"ply", ExportFormat::Ply},
-                                                         {"pcd", ExportFormat::Pcd},
-                                                         {"csv", ExportFormat::Csv},
-                                                         {"npz", ExportFormat::Npz},
-                                                         {"octomap", ExportFormat::Octomap}};
+  static const std::map<std::string, ExportFormat> words{
+      {"ply", ExportFormat::Ply}, {"pcd", ExportFormat::Pcd},         {"csv", ExportFormat::Csv},
+      {"npz", ExportFormat::Npz}, {"octomap", ExportFormat::Octomap}, {"nav2", ExportFormat::Nav2}};
   return words;
 }
 
@@ -42,6 +41,8 @@ struct ExportArguments {
   std::vector<std::string> classes;
   VoxelFilter filter;  ///< without classes, which only the map's label set knows
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  std::vector<std::string> traversable;
+  NavigationOptions navigation;  ///< without classes
 };
 
 /// Class ids of names or numbers.
@@ -66,39 +67,64 @@ std::set<ClassId> classesNamed(const std::string& option, const std::vector<std:
   return classes;
 }
 
-std::size_t writeExport(const ExportArguments& arguments, const VoxelSelection& voxels,
+std::string voxelsText(std::size_t count) {
+  return std::to_string(count) + " voxels";
+}
+
+std::string writeNavigation(const ExportArguments& arguments, const VoxelSelection& voxels,
+                            const LabelSet& labels) {
+  NavigationOptions options = arguments.navigation;
+  options.traversable = classesNamed("--traversable", arguments.traversable, labels);
+  const NavigationGrid grid(voxels, options);
+  writeNavigationFiles(grid, labels, NavigationFiles::named(arguments.output));
+  using State = NavigationGrid::State;
+  return std::to_string(grid.width()) + " x " + std::to_string(grid.height()) + " cells, " +
+         std::to_string(grid.count(State::Free)) + " free, " +
+         std::to_string(grid.count(State::Occupied)) + " occupied";
+}
+
+/// Returns what was written, for people.
+std::string writeExport(const ExportArguments& arguments, const VoxelSelection& voxels,
                         const LabelSet& labels) {
   switch (arguments.format) {
     case ExportFormat::Ply:
-      return writePly(voxels, labels, arguments.output);
+      return voxelsText(writePly(voxels, labels, arguments.output));
     case ExportFormat::Pcd:
-      return writePcd(voxels, labels, arguments.output);
+      return voxelsText(writePcd(voxels, labels, arguments.output));
     case ExportFormat::Csv:
-      return writeCsv(voxels, labels, arguments.output);
+      return voxelsText(writeCsv(voxels, labels, arguments.output));
     case ExportFormat::Npz:
-      return writeNpz(voxels, labels, arguments.output);
+      return voxelsText(writeNpz(voxels, labels, arguments.output));
     case ExportFormat::Octomap:
-      return writeOctomap(voxels, labels, arguments.output);
+      return voxelsText(writeOctomap(voxels, labels, arguments.output));
+    case ExportFormat::Nav2:
+      return writeNavigation(arguments, voxels, labels);
   }
   throw std::invalid_argument("export: unknown format");
 }
 
+std::vector<std::string> outputsOf(const ExportArguments& arguments) {
+  if (arguments.format != ExportFormat::Nav2) return {arguments.output};
+  const NavigationFiles files = NavigationFiles::named(arguments.output);
+  return {files.yaml, files.image, files.classes};
+}
+
 void runExport(const ExportArguments& arguments) {
-  requireSeparateOutputs({arguments.output}, {arguments.file});
+  requireSeparateOutputs(outputsOf(arguments), {arguments.file});
   const MapDocument document = loadMap(arguments.file);
   VoxelFilter filter = arguments.filter;
   filter.free_voxels = arguments.all;
   filter.classes = classesNamed("--classes", arguments.classes, document.labels);
-  std::size_t count = 0;
+  std::string written;
   {
     Progress progress("exporting");
     const VoxelSelection voxels(
         document.map, filter, arguments.frame,
         [&](std::size_t seen, std::size_t known) { progress.update(seen, known); });
-    count = writeExport(arguments, voxels, document.labels);
+    written = writeExport(arguments, voxels, document.labels);
   }
   // Not to standard output: -o may be /dev/stdout.
-  std::fprintf(stderr, "%s: %zu voxels\n", arguments.output.c_str(), count);
+  std::fprintf(stderr, "%s: %s\n", arguments.output.c_str(), written.c_str());
 }
 
 Eigen::AlignedBox3d parseBox(const std::string& text) {
@@ -148,6 +174,39 @@ void addFilters(CLI::App& command, const std::shared_ptr<ExportArguments>& argum
       ->type_name("x,y,z,yaw,pitch,roll");
 }
 
+void addNavigation(CLI::App& command, const std::shared_ptr<ExportArguments>& arguments) {
+  std::vector<CLI::Option*> options;
+  options.push_back(command
+                        .add_option("--traversable", arguments->traversable,
+                                    "nav2: classes that the robot drives on (names or ids)")
+                        ->delimiter(',')
+                        ->type_name("A,B"));
+  options.push_back(command
+                        .add_option_function<std::string>(
+                            "--obstacle-band",
+                            [arguments](const std::string& text) {
+                              const auto n = parseNumbers<2>("--obstacle-band", text);
+                              if (!(n[0] < n[1]))
+                                throw CLI::ValidationError("--obstacle-band",
+                                                           "'" + text + "': z0 < z1 must hold");
+                              arguments->navigation.band = NavigationOptions::Band{n[0], n[1]};
+                            },
+                            "nav2: only what lies between these heights counts")
+                        ->type_name("z0,z1"));
+  options.push_back(command
+                        .add_option("--robot-height", arguments->navigation.robot_height,
+                                    "nav2: what begins this far above the ground is no obstacle")
+                        ->check(CLI::PositiveNumber)
+                        ->capture_default_str()
+                        ->type_name("METRES"));
+  // A later callback than the options' own: by then the format is known.
+  command.parse_complete_callback([arguments, options] {
+    for (const CLI::Option* option : options)
+      if (option->count() > 0 && arguments->format != ExportFormat::Nav2)
+        throw CLI::ValidationError(option->get_name(), "is an option of --to nav2");
+  });
+}
+
 }  // namespace
 
 void addExportCommand(CLI::App& program) {
@@ -160,6 +219,7 @@ void addExportCommand(CLI::App& program) {
       ->type_name("FORMAT");
   command->add_option("-o,--output", arguments->output, "file to write")->required();
   addFilters(*command, arguments);
+  addNavigation(*command, arguments);
   command->footer(
       "Formats:\n"
       "  ply      points with colour, class, probability, variance: MeshLab, CloudCompare\n"
@@ -167,11 +227,13 @@ void addExportCommand(CLI::App& program) {
       "  csv      x,y,z,class_id,class_name,probability,variance,evidence\n"
       "  npz      the same as NumPy arrays\n"
       "  octomap  .ot: occupancy and colours of classes; .bt: occupancy. With free space\n"
+      "  nav2     .yaml and .pgm of ROS's map_server, and a .png of classes\n"
       "docs/exports.md says more.\n\n"
       "Examples:\n"
       "  csom export out/map.csom --to ply -o map.ply\n"
       "  csom export out/map.csom --to csv --classes road,sidewalk -o ground.csv\n"
-      "  csom export out/map.csom --to octomap -o map.ot");
+      "  csom export out/map.csom --to octomap -o map.ot\n"
+      "  csom export out/map.csom --to nav2 --traversable road,sidewalk -o map.yaml");
   command->callback([arguments] { runExport(*arguments); });
 }
 
