@@ -10,6 +10,7 @@ namespace csom {
 void addSimulateCommand(CLI::App& program);
 void addImportCommand(CLI::App& program);
 void addMapCommand(CLI::App& program);
+void addReportCommand(CLI::App& program);
 void addInfoCommand(CLI::App& program);
 void addQueryCommand(CLI::App& program);
 void addMergeCommand(CLI::App& program);

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "PictureFiles.h"
+
 namespace csom {
 
 namespace {
@@ -16,10 +18,6 @@ void writeFile(const std::filesystem::path& path, const void* bytes, std::size_t
   OutputFile file(path.string());
   file.write(bytes, size);
   file.commit();
-}
-
-std::string pictureFile(CameraPicture::Moment moment, const char* what) {
-  return std::string("camera-") + toString(moment) + "-" + what + ".jpg";
 }
 
 void writePictures(const std::vector<CameraPicture>& pictures, const std::filesystem::path& base) {
@@ -34,8 +32,12 @@ void writePictures(const std::vector<CameraPicture>& pictures, const std::filesy
 
 }  // namespace
 
-std::vector<std::string> reportFiles() {
-  std::vector<std::string> names{"run.json", "report.html", "top.png"};
+std::vector<std::string> reportFiles(const ReportOptions& options) {
+  std::vector<std::string> names;
+  if (options.json) names.push_back("run.json");
+  if (options.html) names.push_back("report.html");
+  if (options.png) names.push_back("top.png");
+  if (!options.pictures) return names;
   using Moment = CameraPicture::Moment;
   for (const Moment moment : {Moment::First, Moment::Middle, Moment::Last}) {
     for (const char* what : {"segmentation", "points"}) names.push_back(pictureFile(moment, what));

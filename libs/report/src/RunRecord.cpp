@@ -40,6 +40,24 @@ Json parametersJson(const std::vector<Parameter>& parameters) {
   return json;
 }
 
+Json meaningsJson(const std::vector<Parameter>& parameters) {
+  Json json = Json::object();
+  for (const Parameter& parameter : parameters)
+    json[parameter.name] = {{"unit", parameter.unit}, {"help", parameter.help}};
+  return json;
+}
+
+Json picturesJson(const std::vector<CameraPicture>& pictures) {
+  Json json = Json::array();
+  for (const CameraPicture& picture : pictures)
+    json.push_back({{"moment", toString(picture.moment)},
+                    {"sensor_label", picture.sensor_label},
+                    {"timestamp", picture.timestamp},
+                    {"frame", picture.frame},
+                    {"classes", picture.classes}});
+  return json;
+}
+
 Json scanJson(const RunScan& scan) {
   const ScanRecord& record = scan.record;
   return {{"timestamp", record.timestamp},
@@ -260,12 +278,14 @@ std::string toJson(const RunRecord& record, const MapFigures& figures) {
                {"up", {record.up.x(), record.up.y(), record.up.z()}},
                {"label_set", record.label_set},
                {"parameters", parametersJson(record.parameters)},
+               {"parameter_meanings", meaningsJson(record.parameters)},
                {"wall_seconds", record.wall_seconds},
                {"totals", totalsJson(record)},
                {"refused", refusedJson(record.refused)},
                {"warnings", record.warnings},
                {"timing_ms", timingJson(record)}};
   addCameraSections(json, record);
+  json["pictures"] = picturesJson(record.pictures);
   json["map"] = mapJson(figures);
   json["scans"] = scans;
   // nlohmann writes numbers that are not finite as null.

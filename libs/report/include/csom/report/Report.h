@@ -20,8 +20,8 @@ struct ReportOptions {
   TopViewOptions top_view;  ///< its `up` is that of the record
 };
 
-/// Names of all files that writeReport() may write.
-std::vector<std::string> reportFiles();
+/// Names of all files that writeReport() may write with these options.
+std::vector<std::string> reportFiles(const ReportOptions& options = {});
 
 /// `figures` are those of the document, see figuresOf(). Writes the files into `folder`, which is
 /// created if missing. Of several cameras, the first one's pictures become files. Each file is

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// run.json → run record.
+#include <csom/report/RunRecordReader.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <type_traits>
+
+#include "JsonFields.h"
+#include "PictureFiles.h"
+
+namespace csom {
+
+namespace {
+
+using Json = JsonFields::Json;
+
+std::vector<Parameter> readParameters(const JsonFields& run) {
+  std::vector<Parameter> parameters;
+  const JsonFields meanings = run.object("parameter_meanings");
+  for (const auto& [name, value] : run.object("parameters").json().items()) {
+    Parameter parameter{name, std::string(), "", ""};
+    if (value.is_boolean())
+      parameter.value = value.get<bool>();
+    else if (value.is_number_integer())
+      parameter.value = value.get<std::int64_t>();
+    else if (value.is_number())
+      parameter.value = value.get<double>();
+    else if (value.is_string())
+      parameter.value = value.get<std::string>();
+    else
+      run.fail("parameters." + name, "is neither switch, number nor text");
+    if (meanings.has(name.c_str())) {
+      const JsonFields meaning = meanings.object(name.c_str());
+      parameter.unit = meaning.text("unit");
+      parameter.help = meaning.text("help");
+    }
+    parameters.push_back(std::move(parameter));
+  }
+  return parameters;
+}
+
+/// The map file has all of a scan but the time that it took as a whole.
+std::vector<RunScan> readScans(const JsonFields& run, const std::vector<ScanRecord>& scans) {
+  const std::vector<JsonFields> recorded = run.objects("scans");
+  if (recorded.size() != scans.size())
+    run.fail("scans", "has " + std::to_string(recorded.size()) + " entries, but the map has " +
+                          std::to_string(scans.size()) + " scans");
+  std::vector<RunScan> result;
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    result.push_back({scans[i], recorded[i].number("insert_ms")});
+  return result;
+}
+
+ImageCounts readImages(const JsonFields& images) {
+  ImageCounts counts;
+  counts.read = images.count("read");
+  counts.used = images.count("used");
+  counts.network_runs = images.count("network_runs");
+  counts.from_cache = images.count("from_cache");
+  counts.unused = images.count("unused");
+  counts.refused = images.count("refused");
+  return counts;
+}
+
+CameraLabels readCameraLabels(const JsonFields& json) {
+  CameraLabels labels;
+  for (const JsonFields& camera : json.objects("cameras"))
+    labels.cameras.push_back(
+        {camera.text("sensor_label"), camera.text("source"), readImages(camera.object("images"))});
+  const JsonFields scans = json.object("scans");
+  labels.scans = {scans.count("labelled"), scans.count("without_image"), scans.count("late")};
+  labels.clock_restarts = json.count("clock_restarts");
+  const JsonFields points = json.object("points");
+  labels.points.labelled = points.count("labelled");
+  labels.points.outside_view = points.count("outside_view");
+  labels.points.hidden = points.count("hidden");
+  labels.points.at_edge = points.count("at_edge");
+  labels.points.low_confidence = points.count("low_confidence");
+  labels.points.ignored = points.count("ignored");
+  labels.points.unknown = points.count("unknown");
+  labels.points.kept_unlabelled = points.count("kept_unlabelled");
+  const JsonFields seconds = json.object("seconds");
+  labels.seconds = {seconds.number("network"), seconds.number("image_decoding"),
+                    seconds.number("labelling")};
+  return labels;
+}
+
+std::vector<CameraPicture> readPictures(const JsonFields& run) {
+  using Moment = CameraPicture::Moment;
+  std::vector<CameraPicture> pictures;
+  for (const JsonFields& json : run.objects("pictures")) {
+    CameraPicture picture;
+    const std::string moment = json.text("moment");
+    for (const Moment m : {Moment::First, Moment::Middle, Moment::Last})
+      if (moment == toString(m)) picture.moment = m;
+    picture.sensor_label = json.text("sensor_label");
+    picture.timestamp = json.number("timestamp");
+    picture.frame = json.count("frame");
+    for (const Json& k : json.list("classes")) {
+      if (!k.is_number_unsigned() || k.get<std::size_t>() >= kMaxClasses)
+        json.fail(json.place() + "classes", "has an entry that is no class id");
+      picture.classes.push_back(k.get<ClassId>());
+    }
+    pictures.push_back(std::move(picture));
+  }
+  return pictures;
+}
+
+/// a − b of counts that must not go below zero.
+std::size_t difference(const JsonFields& json, const std::string& name, std::size_t a,
+                       std::size_t b) {
+  if (a < b)
+    json.fail("totals." + name,
+              "is " + std::to_string(a) + ", less than its parts (" + std::to_string(b) + ")");
+  return a - b;
+}
+
+/// What the totals count beyond the scans and the cameras.
+void readRejects(const JsonFields& run, RunRecord& record) {
+  const JsonFields totals = run.object("totals");
+  const JsonFields rejects = totals.object("rejects");
+  const CameraPointCounts cameras =
+      record.camera_labels ? record.camera_labels->points : CameraPointCounts{};
+  record.label_rejects.missing = rejects.count("no-label");
+  record.label_rejects.ambiguous = rejects.count("several-labels");
+  record.label_rejects.unknown =
+      difference(run, "rejects.unknown-label", rejects.count("unknown-label"), cameras.unknown);
+  record.label_rejects.ignored =
+      difference(run, "rejects.ignored-label", rejects.count("ignored-label"), cameras.ignored);
+
+  ScanReport of_scans;
+  for (const RunScan& scan : record.scans) of_scans += scan.record.report;
+  record.unused = {};
+  record.unused.points =
+      difference(run, "points", totals.count("points"),
+                 of_scans.points + record.label_rejects.total() + cameras.dropped());
+  for (std::size_t i = 0; i < kRejectReasons; ++i) {
+    const char* reason = toString(static_cast<RejectReason>(i));
+    record.unused.rejected[i] =
+        difference(run, "rejects." + std::string(reason), rejects.count(reason),
+                   of_scans.rejected[i]);
+  }
+  visitReports(
+      [&](const std::string& name, auto& unused, const auto& scans) {
+        if constexpr (std::is_integral_v<std::decay_t<decltype(unused)>>) {
+          if (name != "points" && name.rfind("rejected_", 0) != 0)
+            unused = difference(run, name, totals.count(name.c_str()), scans);
+        }
+      },
+      record.unused, of_scans);
+}
+
+void requireSameMap(const JsonFields& run, const MapDocument& document) {
+  const std::string recorded = run.object("map").text("digest");
+  const std::string found = mapDigest(document.map);
+  if (recorded != found)
+    run.failWith("belongs to the map with the digest " + recorded +
+                 ", but the digest of the map is " + found + ": take the files of one run");
+}
+
+RunRecord readRun(const JsonFields& run, const MapDocument& document) {
+  requireSameMap(run, document);
+  RunRecord record;
+  record.program_version = run.text("program_version");
+  record.command = run.text("command");
+  record.inputs = run.texts("inputs");
+  record.config_file = run.text("config_file");
+  record.parameters = readParameters(run);
+  record.pose_source = run.text("pose_source");
+  record.label_set = run.text("label_set");
+  const Json& up = run.list("up");
+  if (up.size() != 3 || !std::all_of(up.begin(), up.end(), [](const Json& c) {
+        return c.is_number();
+      }))
+    run.fail("up", "is no list of three numbers");
+  record.up = {up[0].get<double>(), up[1].get<double>(), up[2].get<double>()};
+  record.observations_read = run.object("totals").count("observations_read");
+  record.scans = readScans(run, document.scans);
+  for (const JsonFields& refused : run.objects("refused"))
+    record.refused.push_back(
+        {refused.text("observation_class"), refused.text("reason"), refused.count("count")});
+  if (run.has("camera_labels")) record.camera_labels = readCameraLabels(run.object("camera_labels"));
+  if (run.has("deskew")) {
+    const JsonFields deskew = run.object("deskew");
+    record.deskew = DeskewCounts{deskew.count("deskewed"), deskew.count("not_needed"),
+                                 deskew.count("not_possible")};
+  }
+  if (run.has("registration")) {
+    const JsonFields done = run.object("registration");
+    record.registration =
+        RegistrationRecord{done.count("scans"), done.count("doubtful"), done.number("seconds")};
+  }
+  record.pictures = readPictures(run);
+  record.warnings = run.texts("warnings");
+  record.wall_seconds = run.number("wall_seconds");
+  readRejects(run, record);
+  return record;
+}
+
+std::vector<std::uint8_t> bytesOf(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+RunRecord runRecordFromJson(const std::string& text, const std::string& file,
+                            const MapDocument& document) {
+  Json json;
+  try {
+    json = Json::parse(text);
+  } catch (const Json::exception& error) {
+    throw FileError(file, std::string("is no JSON: ") + error.what());
+  }
+  return readRun(JsonFields(json, file), document);
+}
+
+RunRecord loadRunRecord(const std::string& folder, const MapDocument& document) {
+  const std::filesystem::path base(folder);
+  const std::string file = (base / "run.json").string();
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw FileError(file, "cannot be read; csom map writes it");
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  RunRecord record = runRecordFromJson(text, file, document);
+
+  std::vector<CameraPicture> found;
+  for (CameraPicture& picture : record.pictures) {
+    // Of several cameras, only the first one's pictures are files.
+    if (picture.sensor_label != record.pictures.front().sensor_label) continue;
+    picture.segmentation = bytesOf(base / pictureFile(picture.moment, "segmentation"));
+    picture.points = bytesOf(base / pictureFile(picture.moment, "points"));
+    if (!picture.segmentation.empty() && !picture.points.empty()) found.push_back(picture);
+  }
+  record.pictures = std::move(found);
+  return record;
+}
+
+}  // namespace csom
