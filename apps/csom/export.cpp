@@ -6,6 +6,7 @@
 #include <csom/exports/PointFiles.h>
 #include <csom/io/MapFile.h>
 #include <csom/io/TextParser.h>
+#include <csom/mrpt_exports/MrptFiles.h>
 
 #include <cmath>
 #include <cstdio>
@@ -24,13 +25,19 @@ namespace csom {
 
 namespace {
 
-enum class ExportFormat { Ply, Pcd, Csv, Npz, Octomap, Nav2 };
+enum class ExportFormat { Ply, Pcd, Csv, Npz, Octomap, Nav2, Gridmap, Points };
 
 const std::map<std::string, ExportFormat>& formats() {
   static const std::map<std::string, ExportFormat> words{
-      {"ply", ExportFormat::Ply}, {"pcd", ExportFormat::Pcd},         {"csv", ExportFormat::Csv},
-      {"npz", ExportFormat::Npz}, {"octomap", ExportFormat::Octomap}, {"nav2", ExportFormat::Nav2}};
+      {"ply", ExportFormat::Ply},         {"pcd", ExportFormat::Pcd},
+      {"csv", ExportFormat::Csv},         {"npz", ExportFormat::Npz},
+      {"octomap", ExportFormat::Octomap}, {"nav2", ExportFormat::Nav2},
+      {"gridmap", ExportFormat::Gridmap}, {"points", ExportFormat::Points}};
   return words;
+}
+
+bool isForNavigation(ExportFormat format) {
+  return format == ExportFormat::Nav2 || format == ExportFormat::Gridmap;
 }
 
 struct ExportArguments {
@@ -76,7 +83,10 @@ std::string writeNavigation(const ExportArguments& arguments, const VoxelSelecti
   NavigationOptions options = arguments.navigation;
   options.traversable = classesNamed("--traversable", arguments.traversable, labels);
   const NavigationGrid grid(voxels, options);
-  writeNavigationFiles(grid, labels, NavigationFiles::named(arguments.output));
+  if (arguments.format == ExportFormat::Gridmap)
+    writeGridmap(grid, arguments.output);
+  else
+    writeNavigationFiles(grid, labels, NavigationFiles::named(arguments.output));
   using State = NavigationGrid::State;
   return std::to_string(grid.width()) + " x " + std::to_string(grid.height()) + " cells, " +
          std::to_string(grid.count(State::Free)) + " free, " +
@@ -97,7 +107,10 @@ std::string writeExport(const ExportArguments& arguments, const VoxelSelection& 
       return voxelsText(writeNpz(voxels, labels, arguments.output));
     case ExportFormat::Octomap:
       return voxelsText(writeOctomap(voxels, labels, arguments.output));
+    case ExportFormat::Points:
+      return voxelsText(writePointMap(voxels, labels, arguments.output));
     case ExportFormat::Nav2:
+    case ExportFormat::Gridmap:
       return writeNavigation(arguments, voxels, labels);
   }
   throw std::invalid_argument("export: unknown format");
@@ -176,11 +189,12 @@ void addFilters(CLI::App& command, const std::shared_ptr<ExportArguments>& argum
 
 void addNavigation(CLI::App& command, const std::shared_ptr<ExportArguments>& arguments) {
   std::vector<CLI::Option*> options;
-  options.push_back(command
-                        .add_option("--traversable", arguments->traversable,
-                                    "nav2: classes that the robot drives on (names or ids)")
-                        ->delimiter(',')
-                        ->type_name("A,B"));
+  options.push_back(
+      command
+          .add_option("--traversable", arguments->traversable,
+                      "nav2, gridmap: classes that the robot drives on (names or ids)")
+          ->delimiter(',')
+          ->type_name("A,B"));
   options.push_back(command
                         .add_option_function<std::string>(
                             "--obstacle-band",
@@ -191,19 +205,20 @@ void addNavigation(CLI::App& command, const std::shared_ptr<ExportArguments>& ar
                                                            "'" + text + "': z0 < z1 must hold");
                               arguments->navigation.band = NavigationOptions::Band{n[0], n[1]};
                             },
-                            "nav2: only what lies between these heights counts")
+                            "nav2, gridmap: only what lies between these heights counts")
                         ->type_name("z0,z1"));
-  options.push_back(command
-                        .add_option("--robot-height", arguments->navigation.robot_height,
-                                    "nav2: what begins this far above the ground is no obstacle")
-                        ->check(CLI::PositiveNumber)
-                        ->capture_default_str()
-                        ->type_name("METRES"));
+  options.push_back(
+      command
+          .add_option("--robot-height", arguments->navigation.robot_height,
+                      "nav2, gridmap: what begins this far above the ground is no obstacle")
+          ->check(CLI::PositiveNumber)
+          ->capture_default_str()
+          ->type_name("METRES"));
   // A later callback than the options' own: by then the format is known.
   command.parse_complete_callback([arguments, options] {
     for (const CLI::Option* option : options)
-      if (option->count() > 0 && arguments->format != ExportFormat::Nav2)
-        throw CLI::ValidationError(option->get_name(), "is an option of --to nav2");
+      if (option->count() > 0 && !isForNavigation(arguments->format))
+        throw CLI::ValidationError(option->get_name(), "is an option of --to nav2 and gridmap");
   });
 }
 
@@ -228,6 +243,8 @@ void addExportCommand(CLI::App& program) {
       "  npz      the same as NumPy arrays\n"
       "  octomap  .ot: occupancy and colours of classes; .bt: occupancy. With free space\n"
       "  nav2     .yaml and .pgm of ROS's map_server, and a .png of classes\n"
+      "  gridmap  the same cells as MRPT's COccupancyGridMap2D\n"
+      "  points   points with class ids as MRPT's CPointsMapXYZI\n"
       "docs/exports.md says more.\n\n"
       "Examples:\n"
       "  csom export out/map.csom --to ply -o map.ply\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What must hold before an export begins.
-#include "ExportChecks.h"
+#include <csom/exports/ExportChecks.h>
 
 #include <csom/core/Error.h>
 

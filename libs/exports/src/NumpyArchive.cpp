@@ -10,8 +10,8 @@
 #include <memory>
 #include <utility>
 
+#include <csom/exports/ExportChecks.h>
 #include "BinaryNumbers.h"
-#include "ExportChecks.h"
 
 namespace csom::detail {
 namespace {

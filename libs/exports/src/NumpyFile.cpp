@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include <csom/exports/ExportChecks.h>
 #include "BinaryNumbers.h"
-#include "ExportChecks.h"
 #include "NumpyArchive.h"
 
 namespace csom {

@@ -11,7 +11,7 @@
 #include <fstream>
 #include <limits>
 
-#include "ExportChecks.h"
+#include <csom/exports/ExportChecks.h>
 
 namespace csom {
 namespace {

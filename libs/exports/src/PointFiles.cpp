@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include <csom/exports/ExportChecks.h>
 #include "BinaryNumbers.h"
-#include "ExportChecks.h"
 
 namespace csom {
 namespace {
