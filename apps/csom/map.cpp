@@ -36,6 +36,7 @@ struct MapArguments {
   std::string simplemap;
   bool no_deskew = false;
   bool no_html = false;
+  bool color_blind = false;
   bool json = false;
 };
 
@@ -127,6 +128,7 @@ void runMap(const MapArguments& arguments) {
   if (result.registration) writeTumTrajectory(result.trajectory, results.file("trajectory.tum"));
   ReportOptions report;
   report.html = !arguments.no_html;
+  report.map_picture.color_blind_safe = arguments.color_blind;
   const MapFigures figures = figuresOf(document);
   writeReport(record, document, figures, results.path(), report);
   if (!arguments.simplemap.empty()) writeSimpleMap(result.key_frames, arguments.simplemap);
@@ -151,7 +153,7 @@ void addMapCommand(CLI::App& program) {
       ->required();
   command
       ->add_option("-o,--output", arguments->output,
-                   "Folder for map.csom, run.json and report.html; created if missing")
+                   "Folder for map.csom, run.json, report.html and pictures; created if missing")
       ->required();
   command->add_option("--poses", arguments->poses,
                       "odometry | robot-pose[:LABEL] | tum:FILE | kitti:FILE | simplemap:FILE | "
@@ -172,6 +174,9 @@ void addMapCommand(CLI::App& program) {
                     "Take Velodyne scans as they are, although the robot moves while the sensor "
                     "turns");
   command->add_flag("--no-html", arguments->no_html, "Write no report.html");
+  command->add_flag("--color-blind", arguments->color_blind,
+                    "Pictures in colours that people with colour-blind eyes tell apart, instead of "
+                    "those of the label set");
   command->add_flag("--json", arguments->json, "Print the run record as JSON instead of a summary");
   command->footer(
       "Examples:\n"

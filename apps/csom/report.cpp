@@ -19,6 +19,7 @@ struct ReportArguments {
   std::string folder;
   std::string output;
   bool no_html = false;
+  bool color_blind = false;
 };
 
 void runReport(const ReportArguments& arguments) {
@@ -27,6 +28,7 @@ void runReport(const ReportArguments& arguments) {
   options.json = false;
   options.pictures = false;
   options.html = !arguments.no_html;
+  options.map_picture.color_blind_safe = arguments.color_blind;
   const OutputFolder target(arguments.output.empty() ? arguments.folder : arguments.output,
                             reportFiles(options));
   const MapDocument document = loadMap(map_file);
@@ -48,12 +50,15 @@ void addReportCommand(CLI::App& program) {
   command->add_option("-o,--output", arguments->output,
                       "Folder for report.html and the pictures (default: FOLDER)");
   command->add_flag("--no-html", arguments->no_html, "Write the pictures alone");
+  command->add_flag("--color-blind", arguments->color_blind,
+                    "Pictures in colours that people with colour-blind eyes tell apart, instead of "
+                    "those of the label set");
   command->footer(
       "Reads map.csom and run.json of the folder, and what cameras saw if the pictures are still\n"
       "there.\n\n"
       "Examples:\n"
       "  csom report out\n"
-      "  csom report out -o elsewhere");
+      "  csom report out -o elsewhere --color-blind");
   command->callback([arguments] { runReport(*arguments); });
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page: well-formed, self-contained, safe, and saying what happened.
 #include <csom/report/HtmlReport.h>
-#include <csom/report/TopView.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +20,8 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string pageOf(const RunRecord& record, const MapDocument& document) {
-  return htmlReport(record, document, figuresOf(document), topViewPng(document));
+  return htmlReport(record, document, figuresOf(document),
+                    {{MapView::Top, mapPicturePng(document, MapView::Top)}});
 }
 
 std::string samplePage() {
@@ -81,10 +81,10 @@ TEST(HtmlReportTest, NeedsNothingFromOutside) {
 
 TEST(HtmlReportTest, ThePictureIsInsideAndHasAnAltText) {
   const MapDocument document = test::mapOf({{{0, 0, 0}, 1}});
-  const std::vector<std::uint8_t> png = topViewPng(document);
-  const std::string page = htmlReport(test::sampleRecord(), document, figuresOf(document), png);
+  const std::vector<std::uint8_t> png = mapPicturePng(document, MapView::Side);
+  const std::string page = htmlReport(test::sampleRecord(), document, figuresOf(document), {{MapView::Side, png}});
   EXPECT_THAT(page, HasSubstr("src=\"data:image/png;base64," + encodeBase64(png) + "\""));
-  EXPECT_THAT(page, HasSubstr("alt=\"The map seen from above"));
+  EXPECT_THAT(page, HasSubstr("alt=\"The map from the side"));
   EXPECT_THAT(htmlReport(test::sampleRecord(), document, figuresOf(document), {}), Not(HasSubstr("<img")));
 }
 

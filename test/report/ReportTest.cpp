@@ -46,14 +46,16 @@ class ReportTest : public testing::Test {
   MapFigures figures_ = figuresOf(document_);
 };
 
-TEST_F(ReportTest, WritesThreeFilesAndNoOthers) {
+TEST_F(ReportTest, WritesPagePicturesAndRecordAndNoOthers) {
   writeReport(test::sampleRecord(), document_, figures_, (folder_ / "a" / "b").string());
   folder_ = folder_ / "a" / "b";
-  EXPECT_EQ(files(), (std::set<std::string>{"run.json", "top.png", "report.html"}));
+  EXPECT_EQ(files(), (std::set<std::string>{"run.json", "top.png", "front.png", "side.png",
+                                             "isometric.png", "report.html"}));
   const std::string json = read("run.json");
   EXPECT_EQ(json.front(), '{');
   EXPECT_EQ(json.back(), '\n');
-  EXPECT_EQ(read("top.png").substr(1, 3), "PNG");
+  for (const char* view : {"top.png", "front.png", "side.png", "isometric.png"})
+    EXPECT_EQ(read(view).substr(1, 3), "PNG");
   EXPECT_THAT(read("report.html"), testing::StartsWith("<!DOCTYPE html>"));
   folder_ = folder_.parent_path().parent_path();
 }

@@ -23,9 +23,8 @@ cv::Scalar toBgr(const Color& c) {
 Canvas::Canvas(int width, int height)
     : image_(height * kScale, width * kScale, CV_8UC3, cv::Scalar::all(255)) {}
 
-void Canvas::image(const cv::Mat& cells, cv::Point corner, int cell_size) {
-  const cv::Size size = cells.size() * (cell_size * kScale);
-  cv::resize(cells, image_(cv::Rect(corner * kScale, size)), size, 0, 0, cv::INTER_NEAREST);
+void Canvas::image(const cv::Mat& picture, cv::Point corner) {
+  picture.copyTo(image_(cv::Rect(corner * kScale, picture.size())));
 }
 
 void Canvas::rectangle(const cv::Rect& area, const Color& color) {

@@ -15,14 +15,16 @@ namespace csom {
 /// stroke font legible. Coordinates and sizes are pixels of the final picture.
 class Canvas {
  public:
+  static constexpr int kScale = 2;
+
   Canvas(int width, int height);
 
   int width() const { return image_.cols / kScale; }
   int height() const { return image_.rows / kScale; }
 
-  /// Copies `cells` (8-bit BGR) with its upper left corner to `corner`, each cell `cell_size`²
-  /// large.
-  void image(const cv::Mat& cells, cv::Point corner, int cell_size);
+  /// Copies a picture (8-bit BGR) that is kScale times as large with its upper left corner to
+  /// `corner`.
+  void image(const cv::Mat& picture, cv::Point corner);
   void rectangle(const cv::Rect& area, const Color& color);
   void frame(const cv::Rect& area, const Color& color);
   void line(cv::Point from, cv::Point to, const Color& color);
@@ -34,7 +36,6 @@ class Canvas {
   std::vector<std::uint8_t> toPng() const;
 
  private:
-  static constexpr int kScale = 2;
   cv::Mat image_;
 };
 

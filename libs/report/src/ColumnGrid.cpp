@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Projects the voxels of a map onto the ground.
+// Projects the voxels of a map onto a plane.
 #include "ColumnGrid.h"
 
 #include <algorithm>
@@ -9,30 +9,30 @@ namespace csom {
 
 namespace {
 
-/// A voxel in the view's own coordinates.
+/// A voxel as one looks at it.
 struct SeenVoxel {
-  std::int32_t right, top, up;
+  std::int32_t right, top, eye;
 };
 
 /// Calls visit(SeenVoxel, class) for every voxel below the cut, hidden classes included.
 template <class Visitor>
-void forEachLowVoxel(const SemanticMap& map, const ViewAxes& axes, std::optional<double> highest,
+void forEachLowVoxel(const SemanticMap& map, const Sight& sight, const VoxelFilter& filter,
                      Visitor&& visit) {
   map.forEachVoxel([&](const VoxelIndex& index, const DirichletVoxel& voxel) {
-    if (highest && axes.up.along(map.grid().center(index)) > *highest) return;
-    visit(SeenVoxel{axes.right.along(index), axes.top.along(index), axes.up.along(index)},
+    if (filter.highest && filter.up.along(map.grid().center(index)) > *filter.highest) return;
+    visit(SeenVoxel{sight.right.along(index), sight.top.along(index), sight.eye.along(index)},
           voxel.mostLikelyClass());
   });
 }
 
 }  // namespace
 
-ColumnGrid::ColumnGrid(const SemanticMap& map, const ViewAxes& axes, const Filter& filter,
+ColumnGrid::ColumnGrid(const SemanticMap& map, const Sight& sight, const VoxelFilter& filter,
                        int max_cells) {
   constexpr auto kLowest = std::numeric_limits<std::int32_t>::min();
   constexpr auto kHighest = std::numeric_limits<std::int32_t>::max();
   std::int32_t min_right = kHighest, min_top = kHighest, max_right = kLowest, max_top = kLowest;
-  forEachLowVoxel(map, axes, filter.highest, [&](const SeenVoxel& v, ClassId k) {
+  forEachLowVoxel(map, sight, filter, [&](const SeenVoxel& v, ClassId k) {
     if (filter.hidden.count(k) > 0) {
       left_out_.insert(k);
       return;
@@ -50,7 +50,7 @@ ColumnGrid::ColumnGrid(const SemanticMap& map, const ViewAxes& axes, const Filte
   height_ = (max_top - min_top) / voxels_per_cell_ + 1;
   columns_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
 
-  forEachLowVoxel(map, axes, filter.highest, [&](const SeenVoxel& v, ClassId k) {
+  forEachLowVoxel(map, sight, filter, [&](const SeenVoxel& v, ClassId k) {
     if (filter.hidden.count(k) > 0) return;
     const int column = (v.right - min_right) / voxels_per_cell_;
     const int row = height_ - 1 - (v.top - min_top) / voxels_per_cell_;
@@ -59,8 +59,8 @@ ColumnGrid::ColumnGrid(const SemanticMap& map, const ViewAxes& axes, const Filte
     const bool occupied = k != kFreeClass;
     if (!occupied) {
       if (cell.state == VoxelState::Unknown) cell.state = VoxelState::Free;
-    } else if (cell.state != VoxelState::Occupied || v.up > cell.top) {
-      cell = {VoxelState::Occupied, k, v.up};
+    } else if (cell.state != VoxelState::Occupied || v.eye > cell.top) {
+      cell = {VoxelState::Occupied, k, v.eye};
     }
   });
 }

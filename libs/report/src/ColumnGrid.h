@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A map seen from above, before it is drawn: one column of voxels a cell.
+// A map seen along one of its axes, before it is drawn: one column of voxels a cell.
 #pragma once
 
 #include <csom/core/SemanticMap.h>
@@ -13,25 +13,34 @@
 
 namespace csom {
 
-/// What one sees looking down a column.
+/// How one looks: `right` and `top` of the picture, `eye` towards the one who looks; right-handed.
+struct Sight {
+  SignedAxis right;
+  SignedAxis top;
+  SignedAxis eye;
+};
+
+/// What one sees looking along a column.
 struct Column {
   VoxelState state = VoxelState::Unknown;
   ClassId top_class = kFreeClass;  ///< if occupied
-  std::int32_t top = 0;            ///< index of the topmost occupied voxel along the view's up
+  std::int32_t top = 0;            ///< index of the nearest occupied voxel towards the eye
+};
+
+/// Which voxels of a map are drawn.
+struct VoxelFilter {
+  SignedAxis up;
+  std::optional<double> highest;  ///< voxels with a centre that is higher along `up` are not [m]
+  std::set<ClassId> hidden;       ///< nor are those of these classes
 };
 
 /// A raster of columns, row 0 at the top of the picture.
 class ColumnGrid {
  public:
-  /// Which voxels of a map are seen.
-  struct Filter {
-    std::optional<double> highest;  ///< voxels with a higher centre are not [m]
-    std::set<ClassId> hidden;       ///< nor are those of these classes
-  };
 
   /// Covers all seen voxels with at most `max_cells` cells a side; each cell then holds several
   /// voxels a side.
-  ColumnGrid(const SemanticMap& map, const ViewAxes& axes, const Filter& filter, int max_cells);
+  ColumnGrid(const SemanticMap& map, const Sight& sight, const VoxelFilter& filter, int max_cells);
 
   bool empty() const { return columns_.empty(); }
   int width() const { return width_; }

@@ -77,15 +77,34 @@ void writeFigures(std::ostream& page, const RunRecord& record, const MapFigures&
   page << "</dl>\n";
 }
 
-void writeTopView(std::ostream& page, const MapFigures& figures,
-                  const std::vector<std::uint8_t>& png) {
-  if (png.empty()) return;
-  page << "<h2>From above</h2>\n<figure><img alt=\"The map seen from above, coloured by class";
-  if (figures.known_voxels > 0) page << ", " << extentOf(figures);
-  page << ". The class table below gives the same in figures.\" src=\"data:image/png;base64,"
-       << encodeBase64(png) << "\">\n<figcaption>The topmost occupied voxel of each column; higher "
-       << "ones are lighter. Gray columns are known to be free, white ones were never "
-       << "seen.</figcaption></figure>\n";
+const char* viewInWords(MapView view) {
+  switch (view) {
+    case MapView::Top:
+      return "From above";
+    case MapView::Front:
+      return "From the front";
+    case MapView::Side:
+      return "From the side";
+    case MapView::Isometric:
+      return "From obliquely above";
+  }
+  return "";
+}
+
+void writeMapPictures(std::ostream& page, const MapFigures& figures,
+                      const std::vector<MapPicture>& pictures) {
+  if (pictures.empty() || figures.known_voxels == 0) return;
+  page << "<h2>Pictures of the map</h2>\n";
+  for (const MapPicture& picture : pictures) {
+    const std::string words = viewInWords(picture.view);
+    page << "<figure class=\"map-picture\"><img alt=\"The map " << "f" << words.substr(1)
+         << ", coloured by class, " << extentOf(figures)
+         << ". The class table below gives the same in figures.\" src=\"data:image/png;base64,"
+         << encodeBase64(picture.png) << "\">\n<figcaption>" << words
+         << ".</figcaption></figure>\n";
+  }
+  page << "<p class=\"soft\">One sees the nearest occupied voxel; nearer ones are lighter. Where "
+       << "there is none, gray is known to be free, white was never seen.</p>\n";
 }
 
 void writeClassRow(std::ostream& page, const ClassFigures& c) {
@@ -241,13 +260,13 @@ void writeParameters(std::ostream& page, const std::vector<Parameter>& parameter
 }  // namespace
 
 std::string htmlReport(const RunRecord& record, const MapDocument& document,
-                       const MapFigures& figures, const std::vector<std::uint8_t>& top_view) {
+                       const MapFigures& figures, const std::vector<MapPicture>& pictures) {
   const std::string viewer = viewerSection(document, record);
   std::ostringstream page;
   writeSummary(page, record, figures);
   writeFigures(page, record, figures);
   page << viewer;
-  writeTopView(page, figures, top_view);
+  writeMapPictures(page, figures, pictures);
   writeCameraPictures(page, record, figures);
   writeClasses(page, figures);
   writeCameraLabels(page, record);

@@ -3,7 +3,6 @@
 #include "Legend.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "Palette.h"
@@ -24,32 +23,24 @@ std::string shorten(const std::string& name) {
 
 }  // namespace
 
-Legend::Legend(const ColumnGrid& grid, const LabelSet& labels) {
-  addClasses(grid, labels);
-  const auto& columns = grid.columns();
-  if (std::any_of(columns.begin(), columns.end(),
-                  [](const Column& column) { return column.state == VoxelState::Free; }))
-    entries_.push_back({"free space", kFreeSpace});
+Legend::Legend(const DrawnMap& drawn, const LabelSet& labels, const std::vector<Color>& colors) {
+  addClasses(drawn, labels, colors);
+  if (drawn.free_space) entries_.push_back({"free space", kFreeSpace});
   entries_.push_back({"unknown", kUnknown});
-  for (const ClassId k : grid.leftOut()) {
-    const LabelClass label = classOf(labels, k);
-    entries_.push_back({shorten(label.name) + " (not drawn)", label.color});
-  }
+  for (const ClassId k : drawn.left_out)
+    entries_.push_back({shorten(classOf(labels, k).name) + " (not drawn)", colors[k]});
 }
 
-void Legend::addClasses(const ColumnGrid& grid, const LabelSet& labels) {
-  std::map<ClassId, std::size_t> columns_of;
-  for (const Column& column : grid.columns())
-    if (column.state == VoxelState::Occupied) ++columns_of[column.top_class];
-  std::vector<std::pair<ClassId, std::size_t>> sorted(columns_of.begin(), columns_of.end());
+void Legend::addClasses(const DrawnMap& drawn, const LabelSet& labels,
+                        const std::vector<Color>& colors) {
+  std::vector<std::pair<ClassId, std::size_t>> sorted(drawn.seen.begin(), drawn.seen.end());
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
 
   const std::size_t shown = std::min(sorted.size(), kMostClasses);
-  for (std::size_t i = 0; i < shown; ++i) {
-    const LabelClass label = classOf(labels, sorted[i].first);
-    entries_.push_back({shorten(label.name), label.color});
-  }
+  for (std::size_t i = 0; i < shown; ++i)
+    entries_.push_back(
+        {shorten(classOf(labels, sorted[i].first).name), colors[sorted[i].first]});
   if (shown < sorted.size())
     entries_.push_back({"and " + std::to_string(sorted.size() - shown) + " more", kUnknown});
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the colours of a top view mean.
+// What the colours of a picture mean.
 #pragma once
 
 #include <csom/io/LabelSet.h>
@@ -8,15 +8,16 @@
 #include <vector>
 
 #include "Canvas.h"
-#include "ColumnGrid.h"
+#include "DrawnMap.h"
 
 namespace csom {
 
-/// The classes that a raster shows, the most frequent first, then free and unknown space and the
+/// The classes that a picture shows, the most frequent first, then free and unknown space and the
 /// classes that were left out of it. Sizes are pixels.
 class Legend {
  public:
-  Legend(const ColumnGrid& grid, const LabelSet& labels);
+  /// `colors`: by class id.
+  Legend(const DrawnMap& drawn, const LabelSet& labels, const std::vector<Color>& colors);
 
   int width() const;
   int height() const;
@@ -28,7 +29,7 @@ class Legend {
     Color color;
   };
 
-  void addClasses(const ColumnGrid& grid, const LabelSet& labels);
+  void addClasses(const DrawnMap& drawn, const LabelSet& labels, const std::vector<Color>& colors);
 
   std::vector<Entry> entries_;
 };

@@ -36,7 +36,8 @@ std::vector<std::string> reportFiles(const ReportOptions& options) {
   std::vector<std::string> names;
   if (options.json) names.push_back("run.json");
   if (options.html) names.push_back("report.html");
-  if (options.png) names.push_back("top.png");
+  if (options.png)
+    for (const MapView view : kMapViews) names.push_back(pictureFile(view));
   if (!options.pictures) return names;
   using Moment = CameraPicture::Moment;
   for (const Moment moment : {Moment::First, Moment::Middle, Moment::Last}) {
@@ -59,12 +60,16 @@ void writeReport(const RunRecord& record, const MapDocument& document, const Map
   if (options.pictures) writePictures(record.pictures, base);
   if (!options.png && !options.html) return;
 
-  TopViewOptions view = options.top_view;
-  view.up = record.up;
-  const std::vector<std::uint8_t> top_view = topViewPng(document, view);
-  if (options.png) writeFile(base / "top.png", top_view.data(), top_view.size());
+  MapPictureOptions picture_options = options.map_picture;
+  picture_options.up = record.up;
+  std::vector<MapPicture> pictures;
+  for (const MapView view : kMapViews)
+    pictures.push_back({view, mapPicturePng(document, view, picture_options)});
+  if (options.png)
+    for (const MapPicture& picture : pictures)
+      writeFile(base / pictureFile(picture.view), picture.png.data(), picture.png.size());
   if (options.html) {
-    const std::string page = htmlReport(record, document, figures, top_view);
+    const std::string page = htmlReport(record, document, figures, pictures);
     writeFile(base / "report.html", page.data(), page.size());
   }
 }

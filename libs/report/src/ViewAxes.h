@@ -21,19 +21,20 @@ struct SignedAxis {
     return sign > 0 ? i : -i - 1;
   }
   double along(const Eigen::Vector3d& point) const { return sign * point[axis]; }
+  SignedAxis reversed() const { return {axis, -sign}; }
   /// "x", "-z".
   std::string name() const { return (sign > 0 ? "" : "-") + std::string(1, "xyz"[axis]); }
 };
 
-/// A right-handed view: `right` and `top` of the picture, `up` towards the eye.
+/// Three axes of the map, right-handed: where right, ahead and up are for one who stands in it.
 struct ViewAxes {
   SignedAxis right;
-  SignedAxis top;
+  SignedAxis ahead;
   SignedAxis up;
 
   /// With the axis of the map that is nearest to `up`, and x to the right wherever that is
   /// possible.
-  static ViewAxes lookingDown(const Eigen::Vector3d& up) {
+  static ViewAxes standing(const Eigen::Vector3d& up) {
     Eigen::Index axis = 2;
     up.cwiseAbs().maxCoeff(&axis);
     const int sign = up[axis] < 0 ? -1 : +1;

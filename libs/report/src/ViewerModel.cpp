@@ -313,7 +313,7 @@ ViewerModel viewerModel(const MapDocument& document, const RunRecord& record,
   if (model.cubes == 0) return model;
 
   const double edge = document.map.grid().resolution() * model.voxels_per_cube;
-  const SignedAxis up = ViewAxes::lookingDown(record.up).up;
+  const SignedAxis up = ViewAxes::standing(record.up).up;
   const Json header = {{"resolution", edge},
                        {"tiles", packer.tileCount()},
                        {"voxels", model.cubes},

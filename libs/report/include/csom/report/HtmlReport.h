@@ -4,6 +4,7 @@
 
 #include <csom/io/MapFile.h>
 #include <csom/report/MapFigures.h>
+#include <csom/report/MapPicture.h>
 #include <csom/report/RunRecord.h>
 
 #include <cstdint>
@@ -12,10 +13,15 @@
 
 namespace csom {
 
+/// A picture of the map for the page: a PNG file.
+struct MapPicture {
+  MapView view = MapView::Top;
+  std::vector<std::uint8_t> png;
+};
+
 /// HTML 5 text that needs nothing else: no network, and the pictures, the voxels and the scripts that
-/// show them inside. `figures` are those of the document. `top_view` is a PNG file; if empty, the
-/// page has no such picture. Every text of the record is escaped.
+/// show them inside. `figures` are those of the document. Every text of the record is escaped.
 std::string htmlReport(const RunRecord& record, const MapDocument& document,
-                       const MapFigures& figures, const std::vector<std::uint8_t>& top_view);
+                       const MapFigures& figures, const std::vector<MapPicture>& pictures);
 
 }  // namespace csom
