@@ -138,6 +138,20 @@ TEST(HtmlReportTest, ShowsTheTimesOfEveryStage) {
   EXPECT_THAT(page, HasSubstr("<td>10</td><td>10</td><td>30</td><td>30</td>"));
 }
 
+TEST(HtmlReportTest, DrawsTheTimeOfEachObservationAndOfTheRun) {
+  const std::string page = samplePage();
+  EXPECT_THAT(page, HasSubstr("<h3>Time of each observation</h3>"));
+  EXPECT_THAT(page, HasSubstr("\"name\":\"whole insertion\",\"marks\":\"line\",\"dashed\":false,"
+                              "\"points\":[[1.0,10.0],[2.0,30.0]]"));
+  EXPECT_THAT(page, HasSubstr("<h3>Time of the run</h3>"));
+  RunRecord record = test::sampleRecord();
+  record.scans.resize(3001, record.scans.front());
+  record.scans.back().insert_ms = 77;
+  const std::string long_page = pageOf(record, test::mapOf({}));
+  EXPECT_THAT(long_page, HasSubstr("the slowest of each 3 in succession"));
+  EXPECT_THAT(long_page, HasSubstr("[2998.0,10.0],[3001.0,77.0]]"));
+}
+
 TEST(HtmlReportTest, ShowsEveryParameterWithItsUnitAndMeaning) {
   const std::string page = samplePage();
   const Options options;

@@ -223,10 +223,10 @@ class ViewerTest(BrowserTest):
     def test_every_colouring_shows_something_else(self):
         pictures = {}
         choice = Select(self.find("#viewer-color"))
-        for mode in ("class", "probability", "variance", "evidence", "height"):
+        for mode in ("class", "class-safe", "probability", "variance", "evidence", "height"):
             choice.select_by_value(mode)
             pictures[mode] = self.picture(f"campus-by-{mode}")
-            self.assertEqual(self.find("#viewer .scale").is_displayed(), mode != "class")
+            self.assertEqual(self.find("#viewer .scale").is_displayed(), not mode.startswith("class"))
         modes = list(pictures)
         for i, mode in enumerate(modes):
             for other in modes[:i]:

@@ -98,15 +98,17 @@ TEST(ViewerModelTest, TellsWhatThePageShowsAroundTheVoxels) {
   RunRecord record = test::sampleRecord();
   record.scans[1].record.origin = {2, 2, 3};
   const MapDocument document =
-      test::mapOf({{{0, 0, 0}, 1}, {{1, 0, 0}, 1}, {{1, 0, 3}, 3}, {{2, 0, 9}, 0}}, 0.5);
+      test::mapOf({{{0, 0, 0}, 1}, {{1, 0, 0}, 1}, {{1, 0, 3}, 4}, {{2, 0, 9}, 0}}, 0.5);
   const json header = json::parse(viewerModel(document, record).header);
   EXPECT_EQ(header["resolution"], 0.5);
   EXPECT_EQ(header["voxelsPerCube"], 1);
   EXPECT_EQ(header["layers"], json({{"low", 0}, {"high", 3}}));
   EXPECT_EQ(header["focus"], json({{"low", {0, 0, 0}}, {"high", {2, 1, 4}}}));
   EXPECT_EQ(header["classes"],
-            json::parse(R"([{"id": 1, "name": "ground", "color": [200, 0, 0], "voxels": 2},
-                            {"id": 3, "name": "wall", "color": [0, 0, 200], "voxels": 1}])"));
+            json::parse(R"([{"id": 1, "name": "ground", "voxels": 2, "shown": true},
+                            {"id": 4, "name": "ceiling", "voxels": 1, "shown": false}])"));
+  EXPECT_EQ(header["classNames"][1],
+            json::parse(R"({"name": "ground", "color": [200, 0, 0], "safeColor": [0, 114, 178]})"));
   EXPECT_EQ(header["classNames"].size(), 5u);
   EXPECT_EQ(header["trajectories"], json::parse("[[[2.0, 4.0, 6.0], [4.0, 4.0, 6.0]]]"));
 }

@@ -27,6 +27,7 @@ std::string toHtml(const HtmlPage& page) {
       "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
       policy + "\">\n<title>" + title + "</title>\n<style>" + std::string(kReportStyle.text) +
       "</style>\n</head>\n<body>\n<h1>" + title + "</h1>\n" + page.body;
+  if (!scripts.empty()) html += kLicences.text;
   for (const WebAsset* script : scripts) html += scriptElement(*script);
   return html + "</body>\n</html>\n";
 }

@@ -9,7 +9,7 @@
 
 #include "CameraSections.h"
 #include "Html.h"
-#include "TimingSummary.h"
+#include "TimingSection.h"
 #include "Viewer.h"
 
 namespace csom {
@@ -141,26 +141,6 @@ void writeClasses(std::ostream& page, const MapFigures& figures) {
     page << "<p class=\"soft\">Not in this map: " << escapeHtml(absent) << ".</p>\n";
 }
 
-void writeTiming(std::ostream& page, const RunRecord& record) {
-  const std::vector<StageTiming> stages = summarizeTiming(record.scans);
-  if (stages.empty()) return;
-  const double longest = std::max(stages.front().total, 1e-9);
-  page << "<h2>Time per observation</h2>\n<div class=\"wide\"><table><thead><tr>"
-       << "<th class=\"text\">stage</th><th>total</th><th class=\"text bar\">share</th>"
-       << "<th>min, ms</th><th>median, ms</th><th>95 %, ms</th><th>max, "
-          "ms</th></tr></thead><tbody>\n";
-  for (const StageTiming& stage : stages) {
-    const double share = std::clamp(stage.total / longest, 0.0, 1.0);
-    page << "<tr><td class=\"text\">" << stage.name << "</td><td>"
-         << formatDuration(stage.total / 1000)
-         << "</td><td class=\"bar\"><span style=\"width:" << static_cast<int>(share * 100 + 0.5)
-         << "%\"></span></td><td>" << formatNumber(stage.min) << "</td><td>"
-         << formatNumber(stage.median) << "</td><td>" << formatNumber(stage.p95) << "</td><td>"
-         << formatNumber(stage.max) << "</td></tr>\n";
-  }
-  page << "</tbody></table></div>\n";
-}
-
 const char* inWords(RejectReason reason) {
   switch (reason) {
     case RejectReason::NonFinite:
@@ -279,6 +259,7 @@ std::string htmlReport(const RunRecord& record, const MapDocument& document,
   writeParameters(page, record.parameters);
   HtmlPage html{titleOf(record), page.str()};
   html.viewer = !viewer.empty();
+  html.charts = !record.scans.empty();
   return toHtml(html);
 }
 

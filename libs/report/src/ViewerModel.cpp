@@ -2,6 +2,7 @@
 // Packs voxels for the viewer of the page.
 #include "ViewerModel.h"
 
+#include <csom/report/MapPicture.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include <tuple>
 #include <utility>
 
+#include "ClassColors.h"
 #include "Palette.h"
 #include "Trajectories.h"
 #include "ViewAxes.h"
@@ -256,20 +258,21 @@ Json classesOf(const CubePacker& packer, const LabelSet& labels) {
   Json classes = Json::array();
   for (const ClassId k : present) {
     const LabelClass label = classOf(labels, k);
+    const auto& hidden = MapPictureOptions().hidden_classes;
+    const bool shown = std::find(hidden.begin(), hidden.end(), label.name) == hidden.end();
     classes.push_back(
-        {{"id", k}, {"name", label.name}, {"color", label.color}, {"voxels", counts[k]}});
+        {{"id", k}, {"name", label.name}, {"voxels", counts[k]}, {"shown", shown}});
   }
   return classes;
 }
 
 Json classNamesOf(const MapDocument& document) {
-  const int classes =
-      std::max(document.labels.numberOfClasses(), document.map.options().number_of_classes);
+  const std::vector<Color> colors = labelColors(document), safe = colorBlindSafeColors(document);
   Json names = Json::array();
-  for (int k = 0; k < classes; ++k) {
-    const LabelClass label = classOf(document.labels, static_cast<ClassId>(k));
-    names.push_back({{"name", label.name}, {"color", label.color}});
-  }
+  for (std::size_t k = 0; k < colors.size(); ++k)
+    names.push_back({{"name", classOf(document.labels, static_cast<ClassId>(k)).name},
+                     {"color", colors[k]},
+                     {"safeColor", safe[k]}});
   return names;
 }
 

@@ -18,6 +18,7 @@ extern const WebAsset kChartLibrary;  ///< chart.js
 extern const WebAsset kChartScript;
 extern const WebAsset kThreeLibrary;  ///< three.js
 extern const WebAsset kOrbitControls;
+extern const WebAsset kLicences;  ///< of the libraries
 extern const WebAsset kViewerMarkup;
 extern const WebAsset kVoxelsScript;
 extern const WebAsset kViewerScript;

@@ -466,17 +466,17 @@
 
     addClasses() {
       const list = this.find('.classes ul');
-      for (const {id, name, color, voxels} of this.header.classes) {
-        this.shown[id] = true;
+      for (const {id, name, voxels, shown} of this.header.classes) {
+        this.shown[id] = shown;
         const box = document.createElement('input');
         box.type = 'checkbox';
-        box.checked = true;
+        box.checked = shown;
         box.dataset.class = id;
         box.addEventListener('change', () => {
           this.shown[id] = box.checked;
           this.show();
         });
-        list.append(this.classLine(box, color, name, count(voxels)));
+        list.append(this.classLine(box, id, name, count(voxels)));
       }
       for (const button of this.section.querySelectorAll('[data-classes]')) {
         button.addEventListener('click', () => {
@@ -489,22 +489,29 @@
       }
     }
 
-    classLine(box, color, name, voxels) {
+    classLine(box, id, name, voxels) {
       const line = document.createElement('li');
       const label = document.createElement('label');
       const number = document.createElement('span');
       number.className = 'number';
       number.textContent = voxels;
-      label.append(box, this.swatch(color), name);
+      label.append(box, this.swatch(id), name);
       line.append(label, number);
       return line;
     }
 
-    swatch(color) {
+    swatch(id) {
       const swatch = document.createElement('span');
       swatch.className = 'swatch';
-      swatch.style.background = `rgb(${color.join()})`;
+      swatch.dataset.class = id;
+      swatch.style.background = `rgb(${this.colorOf(id).join()})`;
       return swatch;
+    }
+
+    /** As chosen; also beside what is coloured by something else. */
+    colorOf(id) {
+      const {color, safeColor} = this.header.classNames[id];
+      return this.safe ? safeColor : color;
     }
 
     /** Height of a layer's lower face [m]. */
@@ -628,9 +635,14 @@
       const mode = this.find('#viewer-color').value;
       const bytes = new Uint8Array(256 * 4);
       const scale = this.find('.scale');
-      scale.hidden = mode === 'class';
-      if (mode === 'class') {
-        for (const {id, color} of this.header.classes) bytes.set([...color, 255], 4 * id);
+      const byClass = mode.startsWith('class');
+      scale.hidden = byClass;
+      if (byClass) {
+        this.safe = mode === 'class-safe';
+        for (const {id} of this.header.classes) bytes.set([...this.colorOf(id), 255], 4 * id);
+        for (const swatch of this.section.querySelectorAll('.swatch[data-class]')) {
+          swatch.style.background = `rgb(${this.colorOf(swatch.dataset.class).join()})`;
+        }
       } else {
         for (let i = 0; i < 256; ++i) {
           const at = i / 255 * (RAMP.length - 1);
@@ -645,7 +657,7 @@
         scale.querySelector('.high').textContent = high;
       }
       const bytesOf = ['class', 'probability', 'variance', 'evidence'];
-      const channel = bytesOf.map((name) => (name === mode ? 1 : 0));
+      const channel = bytesOf.map((name) => (name === mode.replace('-safe', '') ? 1 : 0));
       this.scene.setColors(bytes, channel, mode === 'height' ? this.heightScale() : [0, 0, 0, 0]);
     }
 
@@ -679,8 +691,8 @@
       const table = document.createElement('table');
       let rest = 1;
       for (const {id, probability} of this.model.classVector(hit.voxel)) {
-        const {name, color} = this.header.classNames[id];
-        table.append(this.vectorRow(this.swatch(color), name, probability));
+        table.append(
+            this.vectorRow(this.swatch(id), this.header.classNames[id].name, probability));
         rest -= probability;
       }
       if (rest > 0.005) table.append(this.vectorRow('', 'all others together', rest));
