@@ -10,10 +10,13 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "Arguments.h"
 #include "Output.h"
+#include "VoxelFilterArguments.h"
 #include "commands.h"
 
 namespace csom {
@@ -25,6 +28,8 @@ struct QueryArguments {
   std::optional<std::array<double, 3>> point;
   std::optional<std::array<double, 6>> ray;
   std::optional<std::array<double, 6>> box;
+  std::optional<std::array<double, 3>> nearest;
+  std::vector<std::string> classes;
   double max_range = std::numeric_limits<double>::infinity();
   bool json = false;
 };
@@ -119,6 +124,49 @@ void queryRay(const MapDocument& document, const QueryArguments& arguments) {
   printVoxel(document.map.voxel(hit->voxel), document.labels);
 }
 
+/// Of the given classes, or of all if there are none.
+std::optional<Neighbour> nearestOf(const SemanticMap& map, const std::set<ClassId>& classes,
+                                   const Eigen::Vector3d& point, double max_range) {
+  if (classes.empty()) return map.nearestOccupied(point, max_range);
+  std::optional<Neighbour> nearest;
+  for (const ClassId k : classes) {
+    const double limit = nearest ? nearest->distance : max_range;
+    const auto found = map.nearestOccupied(point, limit, k);
+    if (found && (!nearest || found->distance < nearest->distance)) nearest = found;
+  }
+  return nearest;
+}
+
+void queryNearest(const MapDocument& document, const QueryArguments& arguments) {
+  const Eigen::Vector3d point((*arguments.nearest)[0], (*arguments.nearest)[1],
+                              (*arguments.nearest)[2]);
+  const Grid& grid = document.map.grid();
+  if (!grid.contains(point))
+    throw ConfigError("--nearest " + toText(point) + " is farther than this map can address");
+  const auto nearest =
+      nearestOf(document.map, classesNamed("--classes", arguments.classes, document.labels), point,
+                arguments.max_range);
+  if (arguments.json) {
+    Json json{{"point", toJson(point)}, {"distance", nullptr}};
+    if (nearest) {
+      json["distance"] = nearest->distance;
+      json["voxel"] = toJson(nearest->voxel);
+      json["center"] = toJson(grid.center(nearest->voxel));
+      json.update(voxelToJson(document.map.voxel(nearest->voxel), document.labels));
+    }
+    printJson(json);
+    return;
+  }
+  if (!nearest) {
+    std::puts("distance     no occupied voxel within the range");
+    return;
+  }
+  std::printf("distance     %s m\n", toText(nearest->distance).c_str());
+  std::printf("voxel        %d %d %d, centre %s m\n", nearest->voxel.x, nearest->voxel.y,
+              nearest->voxel.z, toText(grid.center(nearest->voxel)).c_str());
+  printVoxel(document.map.voxel(nearest->voxel), document.labels);
+}
+
 void queryBox(const MapDocument& document, const QueryArguments& arguments) {
   const Eigen::Vector3d min = vectorAt(*arguments.box, 0);
   const Eigen::Vector3d max = vectorAt(*arguments.box, 3);
@@ -164,6 +212,7 @@ void runQuery(const QueryArguments& arguments) {
   if (arguments.point) queryPoint(document, arguments);
   if (arguments.ray) queryRay(document, arguments);
   if (arguments.box) queryBox(document, arguments);
+  if (arguments.nearest) queryNearest(document, arguments);
 }
 
 void parseRay(const std::string& text, QueryArguments& arguments) {
@@ -191,7 +240,8 @@ void parseMaxRange(const std::string& text, QueryArguments& arguments) {
 
 void addQueryCommand(CLI::App& program) {
   auto arguments = std::make_shared<QueryArguments>();
-  CLI::App* command = program.add_subcommand("query", "Ask a map about a point, a ray or a box");
+  CLI::App* command =
+      program.add_subcommand("query", "Ask a map about a point, a ray, a box or a distance");
   command->add_option("MAP", arguments->file, "map file (.csom)")->required();
   CLI::Option* point = command->add_option_function<std::string>(
       "--point",
@@ -203,25 +253,42 @@ void addQueryCommand(CLI::App& program) {
   CLI::Option* box = command->add_option_function<std::string>(
       "--box", [arguments](const std::string& text) { parseBox(text, *arguments); },
       "the known voxels whose centres lie in this box, by class");
+  CLI::Option* nearest = command->add_option_function<std::string>(
+      "--nearest",
+      [arguments](const std::string& text) {
+        arguments->nearest = parseNumbers<3>("--nearest", text);
+      },
+      "the distance from here to the nearest occupied voxel's centre");
+  nearest->type_name("x,y,z")->excludes(point)->excludes(ray)->excludes(box);
+  command
+      ->add_option("--classes", arguments->classes,
+                   "with --nearest: only voxels of these classes (names or ids)")
+      ->delimiter(',')
+      ->type_name("A,B")
+      ->needs(nearest);
   point->type_name("x,y,z")->excludes(ray)->excludes(box);
   ray->type_name("ox,oy,oz,dx,dy,dz")->excludes(box);
   box->type_name("x0,y0,z0,x1,y1,z1");
   command
       ->add_option_function<std::string>(
           "--max-range", [arguments](const std::string& text) { parseMaxRange(text, *arguments); },
-          "how far to follow the ray; without it, to the end of the map")
+          "how far to follow the ray, or to look for the nearest voxel; without it, to the end "
+          "of the map")
       ->type_name("METRES")
-      ->needs(ray);
+      ->excludes(point)
+      ->excludes(box);
   command->add_flag("--json", arguments->json, "print JSON");
   command->footer(
-      "Asks a map about one point, one ray or one box. Numbers are metres in the map frame.\n\n"
+      "Asks a map about one point, one ray, one box or one distance. Numbers are metres in the map "
+      "frame.\n\n"
       "Examples:\n"
       "  csom query out/map.csom --point 12.3,-4,0.5\n"
       "  csom query out/map.csom --ray 0,0,1.7,1,0,0 --max-range 50\n"
+      "  csom query out/map.csom --nearest 12.3,-4,0.5 --classes car,pole\n"
       "  csom query out/map.csom --box -5,-5,0,5,5,2 --json");
   command->callback([arguments] {
-    if (!arguments->point && !arguments->ray && !arguments->box)
-      throw CLI::RequiredError("one of --point, --ray, --box");
+    if (!arguments->point && !arguments->ray && !arguments->box && !arguments->nearest)
+      throw CLI::RequiredError("one of --point, --ray, --box, --nearest");
     runQuery(*arguments);
   });
 }

@@ -48,6 +48,12 @@ VoxelSelection VoxelSelection::withFreeVoxels(bool free_voxels) const {
   return selection;
 }
 
+VoxelSelection VoxelSelection::withoutBox() const {
+  VoxelSelection selection = *this;
+  selection.filter_.box.reset();
+  return selection;
+}
+
 bool VoxelSelection::takes(const VoxelIndex& index, const DirichletVoxel& voxel) const {
   const ClassId k = voxel.mostLikelyClass();
   switch (voxel.state()) {

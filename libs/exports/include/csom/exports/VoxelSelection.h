@@ -57,6 +57,8 @@ class VoxelSelection {
 
   /// The same selection with, or without, the free voxels.
   VoxelSelection withFreeVoxels(bool free_voxels) const;
+  /// The same selection wherever voxels lie.
+  VoxelSelection withoutBox() const;
 
   /// False for an unknown voxel.
   bool takes(const VoxelIndex& index, const DirichletVoxel& voxel) const;
