@@ -63,6 +63,11 @@ void registerInsertions(const std::vector<Scan>& scans) {
     fine.resolution = fine.ds_resolution = 0.1;
     add(name + "/fine", scans, fine);
   }
+  Options surface = mapOptions();
+  surface.method = Method::SurfaceCsom;
+  add("insert/surface-csom", scans, surface);
+  surface.threads = 2;
+  add("insert/surface-csom/two-threads", scans, surface);
   for (const FreeSpace free_space : {FreeSpace::None, FreeSpace::Sampled, FreeSpace::Raycast}) {
     Options options = mapOptions();
     options.max_range = 50;

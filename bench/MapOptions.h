@@ -11,6 +11,7 @@ namespace csom::bench {
 inline Options mapOptions() {
   Options options;
   options.number_of_classes = kClasses;
+  options.method = Method::SeeCsom;
   options.resolution = 0.3;
   options.ds_resolution = 0.2;
   return options;

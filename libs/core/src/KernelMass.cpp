@@ -3,33 +3,13 @@
 
 #include <csom/core/Kernel.h>
 
-#include <cstring>
+#include <algorithm>
+
+#include "FixedPointLanes.h"
 
 namespace csom::detail {
 
 namespace {
-
-// Lengths in units of FixedPoint are those in voxels times a power of two: squares, roots and
-// quotients of floats come out with the same digits in either.
-constexpr float kUnits = kFixedPointVoxel;
-
-CSOM_INLINE Lanes toFloat(const WordLanes& difference) {
-  return __builtin_convertvector(reinterpret_cast<const IntLanes&>(difference), Lanes);
-}
-
-CSOM_INLINE WordLanes load(const FixedPoint* values) {
-  WordLanes lanes;
-  std::memcpy(&lanes, values, sizeof lanes);
-  return lanes;
-}
-
-/// Distance along one axis from the interval center ± half, 0 inside.
-CSOM_INLINE Lanes distanceBeyond(const WordLanes& coordinate, FixedPoint center, FixedPoint half) {
-  const WordLanes difference = coordinate - center;
-  const auto offset = reinterpret_cast<const IntLanes&>(difference);
-  const IntLanes beyond = (offset > 0 ? offset : -offset) - static_cast<std::int32_t>(half);
-  return __builtin_convertvector(beyond > 0 ? beyond : IntLanes{}, Lanes);
-}
 
 template <class KernelFunction>
 CSOM_INLINE void addMass(KernelFunction kernel, const PointColumns& points,

@@ -2,31 +2,38 @@
 #include <csom/core/Kernel.h>
 #include <csom/core/LocalSurface.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "BlockWindow.h"
 #include "ChunkTasks.h"
+#include "FixedPointLanes.h"
 #include "NearbyBlocks.h"
+#include "NearestHits.h"
 #include "Parallel.h"
 #include "PointColumns.h"
+#include "PrincipalAxes.h"
 
 namespace csom {
 
 namespace {
 
 using Shape = LocalSurface::Shape;
+using detail::kLanes;
+using detail::Lanes;
+using detail::NearestHits;
 
 /// The neighbour whose distance tells the spacing: beyond the next two of a row of hits.
 constexpr std::size_t kSpacingNeighbour = 3;
 /// Kernel of the covariance, in units of the spacing of all neighbours.
-constexpr double kCovarianceReach = 2.5;
+constexpr float kCovarianceReach = 2.5F;
 /// λ0/λ1 up to which hits lie on a plane.
-constexpr double kFlat = 0.5;
+constexpr float kFlat = 0.5F;
 /// (√λ1 − √λ0)/√λ2 from which hits cover a plane to all sides rather than line up on it.
-constexpr double kCovered = 0.5;
+constexpr float kCovered = 0.5F;
 /// Neighbouring voxels must hear of each other's hits, however dense those are.
 constexpr double kLeastSpacing = 1.1;
 constexpr double kScatteredReach = 0.85;
@@ -35,18 +42,47 @@ constexpr double kDense = 1.3;
 /// Lengths beyond these cost more than the gaps are worth, in voxels.
 constexpr double kWidestSpacing = 16;
 constexpr double kLongestKernel = 24;
-/// Of a row of blocks so many points are looked at: a million at one place cost no more than a wall.
+/// Where the nearest hits are looked for first [voxels], and how much farther than those of the
+/// hit before. Both change the time alone.
+constexpr float kFirstRadius = 2;
+constexpr float kGuess = 1.2F;
+/// Of a row of blocks so many points are looked at: a million at one place cost no more than a
+/// wall.
 constexpr std::uint32_t kMostInRow = 256;
 
-/// A hit seen from another; in voxels.
-struct Neighbour {
-  float squared;
-  Eigen::Vector3f offset;
-  std::uint32_t point;
-
-  friend bool operator<(const Neighbour& a, const Neighbour& b) {
-    return a.squared != b.squared ? a.squared < b.squared : a.point < b.point;
+/// Offers the hits among the points of a range to point p.
+CSOM_EVERY_PROCESSOR
+void offerNear(const detail::PointColumns& points, const std::vector<std::uint8_t>& is_free,
+               const detail::PointRange& range, std::uint32_t p, NearestHits& nearest) {
+  constexpr float kVoxels = 1.0F / detail::kUnits;
+  for (std::uint32_t first = range.first; first < range.last; first += kLanes) {
+    const Lanes dx = detail::toFloat(detail::load(points.x.data() + first) - points.x[p]) * kVoxels;
+    const Lanes dy = detail::toFloat(detail::load(points.y.data() + first) - points.y[p]) * kVoxels;
+    const Lanes dz = detail::toFloat(detail::load(points.z.data() + first) - points.z[p]) * kVoxels;
+    const Lanes squared = dx * dx + dy * dy + dz * dz;
+    const detail::IntLanes near = squared < nearest.limitSquared();
+    const auto count = std::min<std::uint32_t>(kLanes, range.last - first);
+    std::array<std::uint32_t, kLanes> lanes;  // free of branches: which are near cannot be foreseen
+    std::size_t found = 0;
+    for (std::uint32_t lane = 0; lane < count; ++lane) {
+      lanes[found] = lane;
+      found += near[lane] != 0 ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < found; ++i) {
+      const std::uint32_t q = first + lanes[i];
+      const float distance = squared[lanes[i]];
+      if (distance < nearest.limitSquared() && q != p && is_free[q] == 0)
+        nearest.offer(distance, q);
+    }
   }
+}
+
+/// Neighbourhoods of up to eight hits, a lane each, that wait for their surfaces.
+struct Neighbourhoods {
+  std::size_t size = 0;
+  std::array<std::uint32_t, kLanes> point{};
+  std::array<float, kLanes> spacing{};  ///< s, in voxels
+  detail::LaneCovariance covariance;
 };
 
 class SurfaceSearch {
@@ -58,14 +94,15 @@ class SurfaceSearch {
         rows_(scan),
         block_side_(1 << (scan.block_depth - 1)),
         blocks_per_chunk_(kChunkSide / block_side_),
-        spacing_limit_(std::min(std::max(options.ds_resolution / options.resolution, 1.0),
-                                kWidestSpacing)),
+        spacing_limit_(
+            std::min(std::max(options.ds_resolution / options.resolution, 1.0), kWidestSpacing)),
         plane_spacing_limit_(std::min(options.surface_gap * spacing_limit_, kWidestSpacing)),
         radius_(static_cast<float>(1.5 * plane_spacing_limit_)),
         reach_(detail::NearbyBlocks::reachOf(radius_, block_side_, 0)) {}
 
   std::vector<LocalSurface> run() {
     surfaces_.resize(scan_.points.size());
+    findFree();
     std::vector<FilledBlock> blocks;
     for (std::size_t b = 0; b < scan_.blocks.size(); ++b)
       blocks.push_back({scan_.blocks[b], static_cast<std::int32_t>(b)});
@@ -73,14 +110,16 @@ class SurfaceSearch {
     const auto runs = detail::runsOf(tasks);
     detail::parallelRanges(
         runs.size() - 1, options_.threads, [&](std::size_t begin, std::size_t end) {
-          Scratch scratch{{}, {block_side_, reach_, 0}, {}, {}};
+          Scratch scratch(block_side_, reach_);
           for (std::size_t run = begin; run < end; ++run) {
+            scratch.radius = std::min(kFirstRadius, radius_);
             const BlockIndex corner = cornerOf(tasks[runs[run]].chunk);
             const BlockIndex last = cornerOf(tasks[runs[run + 1] - 1].chunk);
             scratch.window.moveTo(rows_, corner, last.x - corner.x + blocks_per_chunk_,
                                   blocks_per_chunk_, reach_);
             for (std::size_t i = tasks[runs[run]].begin; i < tasks[runs[run + 1] - 1].end; ++i)
               describe(blocks[i], corner, scratch);
+            setSurfaces(scratch.waiting);
           }
         });
     return std::move(surfaces_);
@@ -88,20 +127,25 @@ class SurfaceSearch {
 
  private:
   struct Scratch {
+    Scratch(int block_side, int reach) : nearby(block_side, reach, 0) {}
     detail::BlockWindow window;
     detail::NearbyBlocks nearby;
     std::vector<detail::PointRange> ranges;
-    std::vector<Neighbour> neighbours;
+    NearestHits nearest;
+    float radius = 0;  ///< where the nearest hits of the next hit may lie
+    Neighbourhoods waiting;
   };
 
   BlockIndex cornerOf(const ChunkIndex& chunk) const {
     return {chunk.x * blocks_per_chunk_, chunk.y * blocks_per_chunk_, chunk.z * blocks_per_chunk_};
   }
 
-  bool isFree(std::size_t point) const {
-    if (scan_.scores.empty()) return points_.label[point] == kFreeClass;
+  void findFree() {
     const auto classes = static_cast<std::size_t>(options_.number_of_classes);
-    return scan_.scores[point * classes + kFreeClass] > 0.5F;
+    is_free_.resize(scan_.points.size());
+    for (std::size_t p = 0; p < is_free_.size(); ++p)
+      is_free_[p] = scan_.scores.empty() ? points_.label[p] == kFreeClass
+                                         : scan_.scores[p * classes + kFreeClass] > 0.5F;
   }
 
   /// `corner` is that of the window.
@@ -111,41 +155,45 @@ class SurfaceSearch {
     const auto b = static_cast<std::size_t>(block.observed);
     for (std::uint32_t p = scan_.block_begin[b]; p < scan_.block_begin[b + 1]; ++p) {
       LocalSurface& surface = surfaces_[p];
-      if (isFree(p)) {
+      if (is_free_[p] != 0) {
         surface.shape = Shape::Free;
         surface.length = static_cast<float>(options_.kernelLengthMin() / options_.resolution);
         continue;
       }
-      findNeighbours(p, in_window, scratch);
-      surface = surfaceOf(scratch.neighbours);
+      findNearest(p, in_window, scratch);
+      describeNeighbourhood(p, scratch.nearest, scratch.waiting);
+      if (scratch.waiting.size == kLanes) setSurfaces(scratch.waiting);
     }
   }
 
-  /// The nearest hits, nearest first; fewer than asked for if there are no more within radius_.
-  void findNeighbours(std::uint32_t p, const BlockIndex& block, Scratch& scratch) const {
+  /// Finds the nearest hits, as many as are wanted or all within radius_.
+  void findNearest(std::uint32_t p, const BlockIndex& block, Scratch& scratch) const {
     const auto wanted = static_cast<std::size_t>(options_.surface_neighbours);
-    for (float radius = std::min(2.0F, radius_);; radius = std::min(2 * radius, radius_)) {
+    NearestHits& nearest = scratch.nearest;
+    float radius = scratch.radius;
+    for (;; radius = std::min(2 * radius, radius_)) {
       detail::listRanges(scratch.window, block, scratch.nearby.within(radius), scratch.ranges);
-      scratch.neighbours.clear();
-      for (const detail::PointRange& range : scratch.ranges)
-        addNeighbours(p, range, radius * radius, scratch.neighbours);
-      if (scratch.neighbours.size() >= wanted || radius == radius_) break;
+      nearest.reset(wanted, radius * radius);
+      for (const detail::PointRange& range : scratch.ranges) {
+        if (range.last - range.first <= kMostInRow) {
+          offerNear(points_, is_free_, range, p, nearest);
+          continue;
+        }
+        const std::uint32_t step = (range.last - range.first + kMostInRow - 1) / kMostInRow;
+        for (std::uint32_t q = range.first; q < range.last; q += step)
+          offerNear(points_, is_free_, {q, q + 1}, p, nearest);
+      }
+      if (nearest.complete() || radius == radius_) break;
     }
-    std::vector<Neighbour>& found = scratch.neighbours;
-    const auto end = found.begin() + static_cast<std::ptrdiff_t>(std::min(wanted, found.size()));
-    std::partial_sort(found.begin(), end, found.end());
-    found.erase(end, found.end());
+    scratch.radius = nearest.complete()
+                         ? std::min(kGuess * std::sqrt(nearest.limitSquared()), radius_)
+                         : radius_;
   }
 
-  void addNeighbours(std::uint32_t p, const detail::PointRange& range, float limit,
-                     std::vector<Neighbour>& found) const {
-    const std::uint32_t step = (range.last - range.first + kMostInRow - 1) / kMostInRow;
-    for (std::uint32_t q = range.first; q < range.last; q += step) {
-      const Eigen::Vector3f offset(difference(points_.x, q, p), difference(points_.y, q, p),
-                                   difference(points_.z, q, p));
-      const float squared = offset.squaredNorm();
-      if (squared < limit && q != p && !isFree(q)) found.push_back({squared, offset, q});
-    }
+  /// From one point to another [voxels].
+  Eigen::Vector3f offset(std::uint32_t to, std::uint32_t from) const {
+    return {difference(points_.x, to, from), difference(points_.y, to, from),
+            difference(points_.z, to, from)};
   }
 
   static float difference(const std::vector<detail::FixedPoint>& axis, std::uint32_t a,
@@ -154,54 +202,68 @@ class SurfaceSearch {
     return static_cast<float>(static_cast<std::int32_t>(axis[a] - axis[b])) * kVoxels;
   }
 
-  LocalSurface surfaceOf(const std::vector<Neighbour>& neighbours) const {
-    LocalSurface surface;
-    const std::size_t size = neighbours.size();
-    if (size < kSpacingNeighbour) {
-      setLength(radius_, kLeastSpacing, surface);
-      return surface;
+  void describeNeighbourhood(std::uint32_t p, const NearestHits& nearest, Neighbourhoods& waiting) {
+    if (nearest.size() < kSpacingNeighbour) {
+      setLength(radius_, kLeastSpacing, surfaces_[p]);
+      return;
     }
     // Each hit stands for an area s², so a disc that reaches to the n-th neighbour holds n + ½.
     const auto spacingTo = [&](std::size_t n) {
-      return std::sqrt(static_cast<double>(neighbours[n - 1].squared) * M_PI /
-                       (static_cast<double>(n) + 0.5));
+      return std::sqrt(nearest.squared(n - 1) * static_cast<float>(M_PI) /
+                       (static_cast<float>(n) + 0.5F));
     };
-    const double spacing = spacingTo(kSpacingNeighbour);
-    const Eigen::Matrix3d covariance =
-        covarianceOf(neighbours, kCovarianceReach * spacingTo(size));
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-    const Eigen::Vector3d lambda = solver.eigenvalues().cwiseMax(0.0);
-    if (!options_.surface_planes || !(lambda[0] < kFlat * lambda[1])) {
-      setLength(spacing, spacing_limit_, surface);
-      return surface;
-    }
-    surface.shape = Shape::Plane;
-    surface.normal = solver.eigenvectors().col(0).cast<float>();
-    surface.half_thickness = static_cast<float>(options_.surface_thickness) *
-                             (std::abs(surface.normal.x()) + std::abs(surface.normal.y()) +
-                              std::abs(surface.normal.z())) /
-                             2;
-    const bool covered =
-        std::sqrt(lambda[1]) - std::sqrt(lambda[0]) >= kCovered * std::sqrt(lambda[2]);
-    setLength(spacing, covered ? plane_spacing_limit_ : spacing_limit_, surface);
-    return surface;
+    waiting.point[waiting.size] = p;
+    waiting.spacing[waiting.size] = spacingTo(kSpacingNeighbour);
+    setCovariance(p, nearest, kCovarianceReach * spacingTo(nearest.size()), waiting);
+    ++waiting.size;
   }
 
-  /// Of the hit itself, which is at 0, and its neighbours.
-  static Eigen::Matrix3d covarianceOf(const std::vector<Neighbour>& neighbours, double length) {
-    double mass = 1;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-    for (const Neighbour& n : neighbours) {
-      const double t = std::sqrt(static_cast<double>(n.squared)) / length;
-      const double weight = t < 1 ? static_cast<double>(sparseKernel(static_cast<float>(t))) : 0;
-      const Eigen::Vector3d offset = n.offset.cast<double>();
+  /// Of the hit itself and the nearest to it.
+  void setCovariance(std::uint32_t p, const NearestHits& nearest, float length,
+                     Neighbourhoods& waiting) const {
+    float mass = 1;
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    Eigen::Matrix3f squares = Eigen::Matrix3f::Zero();
+    for (std::size_t i = 0; i < nearest.size(); ++i) {
+      const float t = std::sqrt(nearest.squared(i)) / length;
+      const float weight = t < 1 ? sparseKernel(t) : 0;
+      const Eigen::Vector3f from_hit = offset(nearest.point(i), p);
       mass += weight;
-      sum += weight * offset;
-      squares += weight * offset * offset.transpose();
+      sum += weight * from_hit;
+      squares += weight * from_hit * from_hit.transpose();
     }
-    const Eigen::Vector3d mean = sum / mass;
-    return squares / mass - mean * mean.transpose();
+    const Eigen::Vector3f mean = sum / mass;
+    const Eigen::Matrix3f covariance = squares / mass - mean * mean.transpose();
+    const std::size_t lane = waiting.size;
+    waiting.covariance.xx[lane] = covariance(0, 0);
+    waiting.covariance.yy[lane] = covariance(1, 1);
+    waiting.covariance.zz[lane] = covariance(2, 2);
+    waiting.covariance.xy[lane] = covariance(0, 1);
+    waiting.covariance.xz[lane] = covariance(0, 2);
+    waiting.covariance.yz[lane] = covariance(1, 2);
+  }
+
+  /// The surfaces of all hits that wait.
+  void setSurfaces(Neighbourhoods& waiting) {
+    const detail::PrincipalAxes axes = detail::principalAxes(waiting.covariance);
+    for (std::size_t lane = 0; lane < waiting.size; ++lane) {
+      const auto variance = [&](std::size_t i) { return axes.variance[i][lane]; };
+      const Eigen::Vector3f normal(axes.normal[0][lane], axes.normal[1][lane],
+                                   axes.normal[2][lane]);
+      LocalSurface& surface = surfaces_[waiting.point[lane]];
+      if (!options_.surface_planes || !(variance(0) < kFlat * variance(1))) {
+        setLength(waiting.spacing[lane], spacing_limit_, surface);
+        continue;
+      }
+      surface.shape = Shape::Plane;
+      surface.normal = normal;
+      surface.half_thickness =
+          static_cast<float>(options_.surface_thickness) * normal.lpNorm<1>() / 2;
+      const bool covered =
+          std::sqrt(variance(1)) - std::sqrt(variance(0)) >= kCovered * std::sqrt(variance(2));
+      setLength(waiting.spacing[lane], covered ? plane_spacing_limit_ : spacing_limit_, surface);
+    }
+    waiting.size = 0;
   }
 
   /// `spacing` of the hits, and the widest that a kernel spans.
@@ -224,6 +286,7 @@ class SurfaceSearch {
   double plane_spacing_limit_;  ///< voxels
   float radius_;                ///< within which neighbours are looked for [voxels]
   int reach_;                   ///< the same in blocks
+  std::vector<std::uint8_t> is_free_;
   std::vector<LocalSurface> surfaces_;
 };
 

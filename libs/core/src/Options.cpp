@@ -140,6 +140,7 @@ void Options::validate() const {
   checkRange("surface_thickness", surface_thickness, 0.1, 10);
   checkRange("surface_support", surface_support, 1e-3, 100);
   checkRange("surface_hit_weight", surface_hit_weight, 0, 100);
+  checkRange("surface_free_limit", surface_free_limit, 0, 1000);
   checkRange("counter_evidence", counter_evidence, 0, 100);
   checkRange("prior", prior, 1e-9, 1e5);
   if (threads < 0 || threads > 1024)

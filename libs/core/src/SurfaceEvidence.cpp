@@ -10,9 +10,12 @@ namespace csom::detail {
 
 namespace {
 
-/// Beyond its thickness a plane speaks against voxels, this far along its normal [voxels]. What is
-/// farther off it says nothing about.
-constexpr float kShell = 0.5F;
+/// g_min: what a scan's word is worth where it has seen next to nothing.
+constexpr float kLeastWeight = 0.3F;
+/// Rows are left out only if they are outside by more than this.
+constexpr float kRounding = 1e-3F;
+/// Where no surface passes through a voxel and so little passes near it, nothing is said.
+constexpr float kLeastSupport = 0.3F;
 
 struct alignas(kLaneAlignment) AlignedLanes {
   Lanes lanes;
@@ -32,39 +35,36 @@ struct RowRange {
 inline float reachAlong(float normal, const LocalSurface& surface) {
   if (surface.shape != LocalSurface::Shape::Plane) return surface.length;
   return surface.length * std::sqrt(std::max(0.0F, 1 - normal * normal)) +
-         (surface.half_thickness + kShell) * std::abs(normal);
-}
-
-/// Where there is mass, a reach is at least `length`.
-CSOM_INLINE void raise(Lanes& reach, const Lanes& mass, float length) {
-  const Lanes here = mass > 0.0F ? Lanes{} + length : Lanes{};
-  reach = reach > here ? reach : here;
+         (surface.half_thickness + SurfaceEvidence::kShell) * std::abs(normal);
 }
 
 template <class Rows>
 CSOM_INLINE void addPlane(const LocalSurface& s, float px, float py, float pz, Rows& votes,
-                          Rows& support, Rows& dense, Rows& reach) {
+                          Rows& support, Rows& dense) {
   const float inverse_length = 1 / s.length;
-  const float shell = s.half_thickness + kShell;
-  const float farthest = s.length + s.half_thickness;
+  const float shell = s.half_thickness + SurfaceEvidence::kShell;
   const Lanes dx = kCenters.lanes - px;
   const Lanes nx_dx = s.normal.x() * dx;
   const Lanes dx_dx = dx * dx;
   const RowRange ys(py, reachAlong(s.normal.y(), s));
   const RowRange zs(pz, reachAlong(s.normal.z(), s));
+  // A row that stays outside the shell, or outside the disc's sphere, receives nothing.
+  const float farthest_dx = std::max(std::abs(px - 0.5F), std::abs(kChunkSide - 0.5F - px));
+  const float outside_shell = shell + std::abs(s.normal.x()) * farthest_dx + kRounding;
+  const float outside_sphere = s.length * s.length + shell * shell + kRounding;
   for (int z = zs.first; z <= zs.last; ++z) {
     const float dz = static_cast<float>(z) + 0.5F - pz;
     for (int y = ys.first; y <= ys.last; ++y) {
       const float dy = static_cast<float>(y) + 0.5F - py;
-      const Lanes along_normal = nx_dx + (s.normal.y() * dy + s.normal.z() * dz);
+      const float ny_dy_nz_dz = s.normal.y() * dy + s.normal.z() * dz;
+      if (std::abs(ny_dy_nz_dz) > outside_shell || dy * dy + dz * dz > outside_sphere) continue;
+      const Lanes along_normal = nx_dx + ny_dy_nz_dz;
       const Lanes squared = dx_dx + (dy * dy + dz * dz) - along_normal * along_normal;
       const Lanes t = squareRoot(squared > 0.0F ? squared : Lanes{}) * inverse_length;
       const Lanes mass = t < 1.0F ? sparseKernel(t) : Lanes{};
       const Lanes off = along_normal > 0.0F ? along_normal : -along_normal;
       const auto row = static_cast<std::size_t>(z * kChunkSide + y);
-      const Lanes vote = off <= s.half_thickness ? mass : Lanes{};
-      votes[row].mass += vote;
-      raise(reach[row].mass, vote, farthest);
+      votes[row].mass += off <= s.half_thickness ? mass : Lanes{};
       const Lanes near = off <= shell ? mass : Lanes{};
       support[row].mass += near;
       dense[row].mass += near * s.density;
@@ -91,8 +91,14 @@ CSOM_INLINE void addBall(const LocalSurface& s, float px, float py, float pz, Ad
 
 }  // namespace
 
+SurfaceEvidence::SurfaceEvidence(const Options& options)
+    : hit_weight_(static_cast<float>(options.surface_hit_weight)),
+      tau_(static_cast<float>(options.surface_support)),
+      counter_evidence_(static_cast<float>(options.counter_evidence)),
+      free_limit_(static_cast<float>(options.surface_free_limit)) {}
+
 void SurfaceEvidence::reset(const ChunkIndex& chunk) {
-  for (Rows* rows : {&votes_, &support_, &dense_, &free_, &reach_}) rows->fill(Row{});
+  for (Rows* rows : {&votes_, &support_, &dense_, &free_}) rows->fill(Row{});
   x_ = fixedPoint(chunk.x * kChunkSide);
   y_ = fixedPoint(chunk.y * kChunkSide);
   z_ = fixedPoint(chunk.z * kChunkSide);
@@ -110,26 +116,28 @@ void SurfaceEvidence::add(const PointColumns& points, const std::vector<LocalSur
     const float px = inVoxels(points.x[p] - x_);
     const float py = inVoxels(points.y[p] - y_);
     const float pz = inVoxels(points.z[p] - z_);
+    const float reach = s.reach() + kShell;
+    const auto beyond = [&](float v) { return v + reach < 0 || v - reach > kChunkSide; };
+    if (beyond(px) || beyond(py) || beyond(pz)) continue;
     const float reach_x = reachAlong(s.normal.x(), s);
     if (px + reach_x < 0 || px - reach_x > kChunkSide) continue;
     switch (s.shape) {
       case LocalSurface::Shape::Plane:
-        addPlane(s, px, py, pz, votes_, support_, dense_, reach_);
+        addPlane(s, px, py, pz, votes_, support_, dense_);
         break;
       case LocalSurface::Shape::Scattered:
-        addBall(s, px, py, pz,
-                [&](std::size_t row, const Lanes& mass) __attribute__((always_inline)) {
-                  votes_[row].mass += mass;
-                  support_[row].mass += mass;
-                  dense_[row].mass += mass * s.density;
-                  raise(reach_[row].mass, mass, s.length);
-                });
+        addBall(
+            s, px, py, pz, [&](std::size_t row, const Lanes& mass) __attribute__((always_inline)) {
+              votes_[row].mass += mass;
+              support_[row].mass += mass;
+              dense_[row].mass += mass * s.density;
+            });
         break;
       case LocalSurface::Shape::Free:
-        addBall(s, px, py, pz,
-                [&](std::size_t row, const Lanes& mass) __attribute__((always_inline)) {
-                  free_[row].mass += mass;
-                });
+        addBall(
+            s, px, py, pz, [&](std::size_t row, const Lanes& mass) __attribute__((always_inline)) {
+              free_[row].mass += mass;
+            });
         continue;
     }
     const auto inside = [](float v) { return v >= 0 && v < kChunkSide; };
@@ -141,6 +149,32 @@ void SurfaceEvidence::add(const PointColumns& points, const std::vector<LocalSur
       dense_[row].mass[lane] += hit_weight_ * s.density;
     }
   }
+}
+
+CSOM_EVERY_PROCESSOR
+bool SurfaceEvidence::finish() {
+  Lanes any{};
+  const float enough = 2 * tau_;
+  for (std::size_t row = 0; row < votes_.size(); ++row) {
+    const Lanes votes = votes_[row].mass;
+    const Lanes support = support_[row].mass;
+    const Lanes missing = support < enough ? enough - support : Lanes{};
+    const Lanes full = 1 - missing / enough;
+    const Lanes weight = votes > 0.0F || support >= kLeastSupport
+                             ? kLeastWeight + (1 - kLeastWeight) * full
+                             : Lanes{};
+    const Lanes density = support > 0.0F ? dense_[row].mass / support : Lanes{};
+    // Where surfaces have spoken, the beams that graze them need not.
+    const Lanes silence = support < tau_ ? 1 - support / tau_ : Lanes{};
+    const Lanes free = free_[row].mass < free_limit_ ? free_[row].mass : Lanes{} + free_limit_;
+    votes_[row].mass = weight * votes;
+    free_[row].mass =
+        weight * counter_evidence_ * (support - votes + density * missing) + silence * free;
+    any += votes_[row].mass + free_[row].mass;
+  }
+  float total = 0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) total += any[lane];
+  return total > 0;
 }
 
 }  // namespace csom::detail

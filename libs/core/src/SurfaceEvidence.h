@@ -4,6 +4,7 @@
 
 #include <csom/core/Grid.h>
 #include <csom/core/LocalSurface.h>
+#include <csom/core/Options.h>
 #include <csom/core/types.h>
 
 #include <array>
@@ -17,31 +18,27 @@
 namespace csom::detail {
 
 /// Sums over the training points, for each voxel of a chunk: a lane a voxel along x, single
-/// precision, in the order of the points.
+/// precision, in the order of the points. SurfaceInference.h has the equations.
 class SurfaceEvidence {
  public:
-  /// `hit_weight`: additional mass for the voxel that a hit lies in.
-  explicit SurfaceEvidence(float hit_weight) : hit_weight_(hit_weight) {}
+  /// Beyond its thickness a plane speaks against voxels, this far along its normal [voxels]. What
+  /// is farther off it says nothing about.
+  static constexpr float kShell = 0.5F;
+
+  explicit SurfaceEvidence(const Options& options);
 
   /// Forgets all, and looks at this chunk from now on.
   void reset(const ChunkIndex& chunk);
   /// Points points[begin] … points[end−1] of the scan.
   void add(const PointColumns& points, const std::vector<LocalSurface>& surfaces,
            std::uint32_t begin, std::uint32_t end);
+  /// Ends the additions: what follows may be asked. Returns false if there is no evidence.
+  bool finish();
 
-  /// Mass for the voxel: of surfaces that pass through it …
-  float votes(int index_in_chunk) const { return get(votes_, index_in_chunk); }
-  /// … and that of all surfaces that could: `votes` and those that pass beside it.
-  float support(int index_in_chunk) const { return get(support_, index_in_chunk); }
-  /// Mean density of the hits that support it, 0 … 1.
-  float density(int index_in_chunk) const {
-    const float mass = support(index_in_chunk);
-    return mass > 0 ? get(dense_, index_in_chunk) / mass : 0;
-  }
-  /// Mass of free samples.
+  /// Evidence that a voxel is occupied: Σ_{k≥1} Δσ^k of (S5).
+  float occupied(int index_in_chunk) const { return get(votes_, index_in_chunk); }
+  /// Evidence that it is free: Δσ^0 of (S4).
   float free(int index_in_chunk) const { return get(free_, index_in_chunk); }
-  /// All points that gave votes are nearer than this [voxels].
-  float reach(int index_in_chunk) const { return get(reach_, index_in_chunk); }
 
  private:
   static_assert(kChunkSide == static_cast<int>(kLanes), "a row of a chunk is a vector of lanes");
@@ -54,12 +51,14 @@ class SurfaceEvidence {
     return rows[static_cast<std::size_t>(i) / kLanes].mass[static_cast<std::size_t>(i) % kLanes];
   }
 
-  Rows votes_{};
-  Rows support_{};
-  Rows dense_{};
-  Rows free_{};
-  Rows reach_{};
+  Rows votes_{};    ///< V; after finish() g·V
+  Rows support_{};  ///< S
+  Rows dense_{};    ///< S, each hit weighted by its density
+  Rows free_{};     ///< F; after finish() Δσ^0
   float hit_weight_;
+  float tau_;
+  float counter_evidence_;
+  float free_limit_;
   FixedPoint x_ = 0, y_ = 0, z_ = 0;  ///< lower corner of the chunk
 };
 

@@ -6,6 +6,7 @@
 #include <csom/core/ScanPreparation.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -34,6 +35,11 @@ struct LocalSurface {
   /// A plane passes through a voxel if its centre is nearer to the plane than
   /// h = `surface_thickness`·(|n_x|+|n_y|+|n_z|)/2; 0 for all others.
   float half_thickness = 0;
+
+  /// All voxels that a hit votes for have their centres nearer than this, its own included.
+  float reach() const { return std::max(length + half_thickness, kHalfVoxelDiagonal); }
+
+  static constexpr float kHalfVoxelDiagonal = 0.87F;  ///< rounded up
 };
 
 /// One a training point. Depends on nothing but the scan and the options.

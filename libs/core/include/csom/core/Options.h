@@ -59,12 +59,13 @@ struct Options {
   double kernel_scale = 1.0;       ///< ε0 of eq. 19
 
   bool surface_planes = true;       ///< surface-csom: kernels lie along the local surface
-  int surface_neighbours = 12;      ///< hits that tell the local surface of a hit
-  double surface_reach = 1.6;       ///< kernel length, in units of the spacing of hits
-  double surface_gap = 4;           ///< widest spacing that a plane spans, in max(ds, r)
+  int surface_neighbours = 8;       ///< hits that tell the local surface of a hit
+  double surface_reach = 1.8;       ///< kernel length, in units of the spacing of hits
+  double surface_gap = 5;           ///< widest spacing that a plane spans, in max(ds, r)
   double surface_thickness = 0.97;  ///< of a plane, in voxels measured along its normal
   double surface_support = 0.5;     ///< τ, kernel mass that makes a voxel occupied by itself
   double surface_hit_weight = 0.6;  ///< additional mass for the voxel that a hit lies in
+  double surface_free_limit = 0.4;  ///< sampled: most evidence of free for a voxel by a scan
   double counter_evidence = 1;      ///< weight of what speaks against a voxel beside a surface
 
   double prior = 0.001;  ///< σ0 of eq. 22, evidence that every class has beforehand
@@ -143,13 +144,16 @@ void visitOptions(OptionsLike& o, Visitor&& visitor) {
   visitor("surface_reach", o.surface_reach, "",
           "surface-csom: kernel length, in units of the spacing of hits");
   visitor("surface_gap", o.surface_gap, "",
-          "surface-csom: widest spacing that a plane spans, in units of max(ds_resolution, resolution)");
+          "surface-csom: widest spacing that a plane spans, in units of max(ds_resolution, "
+          "resolution)");
   visitor("surface_thickness", o.surface_thickness, "",
           "surface-csom: of a plane, in voxels measured along its normal");
   visitor("surface_support", o.surface_support, "",
           "surface-csom: kernel mass that makes a voxel occupied by itself");
   visitor("surface_hit_weight", o.surface_hit_weight, "",
           "surface-csom: additional mass for the voxel that a hit lies in");
+  visitor("surface_free_limit", o.surface_free_limit, "",
+          "surface-csom, sampled: most evidence of free for a voxel by a scan");
   visitor("counter_evidence", o.counter_evidence, "",
           "surface-csom: weight of what speaks against a voxel beside a surface");
   visitor("prior", o.prior, "", "sigma 0 of eq. 22");

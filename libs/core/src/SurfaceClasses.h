@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which classes the hits around the voxels of a chunk speak of (surface-csom).
+#pragma once
+
+#include <csom/core/LocalSurface.h>
+#include <csom/core/Options.h>
+#include <csom/core/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "KernelMass.h"
+#include "LaneSums.h"
+#include "PointColumns.h"
+
+namespace csom::detail {
+
+/// m^k of (S5): kernel mass by class, each hit with the length max(L_J, its own reach), so that
+/// whatever votes for a voxel also tells a class.
+class SurfaceClasses {
+ public:
+  explicit SurfaceClasses(const Options& options)
+      : kernel_(options.kernel), sums_(options.number_of_classes) {}
+
+  /// Forgets all hits.
+  void clear();
+  /// Hits points[begin] … points[end−1] of a scan; `scores` of all its points, or none. Free
+  /// samples tell no class.
+  void add(const PointColumns& points, const std::vector<LocalSurface>& surfaces,
+           const std::vector<float>& scores, std::uint32_t begin, std::uint32_t end);
+
+  /// Turns to a block, whose kernel length is L_J [voxels].
+  void select(const BlockPlace& block, float length);
+  /// If all hits near the block have one label, that.
+  std::optional<ClassId> onlyClass() const;
+  /// Sums for the voxels of a group of the block; the classes with any mass, ascending. May hold
+  /// kFreeClass where there are scores.
+  const std::vector<ClassId>& sum(const LaneGroup& group);
+  double mass(ClassId k, std::size_t lane) const { return sums_.mass(k, lane); }
+
+ private:
+  Kernel kernel_;
+  LaneSums sums_;
+  // Hits, in the order of the scan; coordinates and reaches padded by whole vectors.
+  std::size_t size_ = 0;
+  std::vector<FixedPoint> x_, y_, z_;
+  std::vector<float> reach_;
+  std::vector<ClassId> label_;
+  std::vector<float> scores_;
+  // Of them, those near the block.
+  BlockPlace block_{};
+  float length_ = 0;
+  std::vector<std::uint32_t> selected_;
+};
+
+}  // namespace csom::detail
