@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // csom report: the page and the pictures of a run, made again.
 #include <csom/io/MapFile.h>
-#include <csom/report/MapFigures.h>
 #include <csom/report/Report.h>
 #include <csom/report/RunRecordReader.h>
 
@@ -32,10 +31,10 @@ void runReport(const ReportArguments& arguments) {
   const OutputFolder target(arguments.output.empty() ? arguments.folder : arguments.output,
                             reportFiles(options));
   const MapDocument document = loadMap(map_file);
-  const RunRecord record = loadRunRecord(arguments.folder, document);
+  const SavedRun run = loadRun(arguments.folder, document);
 
   StagedResults results(target);
-  writeReport(record, document, figuresOf(document), results.path(), options);
+  writeReport(run.record, document, run.figures, results.path(), options);
   results.commit();
   for (const std::string& name : target.results()) std::printf("%s\n", target.file(name).c_str());
 }

@@ -34,7 +34,12 @@ struct SampleRun {
                        test::samplePicture(CameraPicture::Moment::Last, "left")};
     for (const RunScan& scan : record.scans) document.scans.push_back(scan.record);
   }
-  std::string text() const { return toJson(record, figuresOf(document)); }
+  std::string text() const { return toJson(record, figures()); }
+  MapFigures figures() const {
+    MapFigures figures = figuresOf(document);
+    figures.memory_bytes = 123456;  // while it grew
+    return figures;
+  }
 
   RunRecord record = test::sampleRecord();
   MapDocument document = test::mapOf({{{0, 0, 0}, 1}, {{1, 0, 0}, 0}});
@@ -42,8 +47,9 @@ struct SampleRun {
 
 TEST(RunRecordReaderTest, ReadsWhatToJsonWrites) {
   const SampleRun run;
-  const RunRecord read = runRecordFromJson(run.text(), "run.json", run.document);
-  EXPECT_EQ(toJson(read, figuresOf(run.document)), run.text());
+  const SavedRun saved = runFromJson(run.text(), "run.json", run.document);
+  EXPECT_EQ(toJson(saved.record, saved.figures), run.text());
+  const RunRecord& read = saved.record;
   EXPECT_EQ(read.unused.points, 9u);
   EXPECT_EQ(read.unused.rejected[0], 8u);
   EXPECT_EQ(read.unused.free_voxels, 7u);
@@ -61,24 +67,23 @@ class RunFolder : public testing::Test {
 };
 
 TEST_F(RunFolder, GivesTheSamePageAgain) {
-  const MapFigures figures = figuresOf(run.document);
-  writeReport(run.record, run.document, figures, folder);
-  const RunRecord read = loadRunRecord(folder, run.document);
-  EXPECT_EQ(htmlReport(read, run.document, figures, {}),
-            htmlReport(run.record, run.document, figures, {}));
+  writeReport(run.record, run.document, run.figures(), folder);
+  const SavedRun read = loadRun(folder, run.document);
+  EXPECT_EQ(htmlReport(read.record, run.document, read.figures, {}),
+            htmlReport(run.record, run.document, run.figures(), {}));
 }
 
 TEST_F(RunFolder, DoesWithoutPicturesThatAreGone) {
-  writeReport(run.record, run.document, figuresOf(run.document), folder);
+  writeReport(run.record, run.document, run.figures(), folder);
   std::filesystem::remove(folder + "/camera-last-points.jpg");
-  const RunRecord read = loadRunRecord(folder, run.document);
+  const RunRecord read = loadRun(folder, run.document).record;
   ASSERT_EQ(read.pictures.size(), 1u);
   EXPECT_EQ(read.pictures.front().moment, CameraPicture::Moment::First);
 }
 
 std::string refusal(const std::string& text, const MapDocument& document) {
   try {
-    runRecordFromJson(text, "out/run.json", document);
+    runFromJson(text, "out/run.json", document);
   } catch (const FileError& error) {
     return error.what();
   }

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <type_traits>
+#include <utility>
 
 #include "JsonFields.h"
 #include "PictureFiles.h"
@@ -153,16 +154,20 @@ void readRejects(const JsonFields& run, RunRecord& record) {
       record.unused, of_scans);
 }
 
-void requireSameMap(const JsonFields& run, const MapDocument& document) {
-  const std::string recorded = run.object("map").text("digest");
-  const std::string found = mapDigest(document.map);
+MapFigures readFigures(const JsonFields& run, const MapDocument& document) {
+  MapFigures figures = figuresOf(document);
+  const JsonFields map = run.object("map");
+  const std::string recorded = map.text("digest");
+  const std::string& found = figures.digest;
   if (recorded != found)
     run.failWith("belongs to the map with the digest " + recorded +
                  ", but the digest of the map is " + found + ": take the files of one run");
+  // A map that is read takes less memory than one that has grown.
+  figures.memory_bytes = map.count("memory_bytes");
+  return figures;
 }
 
-RunRecord readRun(const JsonFields& run, const MapDocument& document) {
-  requireSameMap(run, document);
+RunRecord readRecord(const JsonFields& run, const MapDocument& document) {
   RunRecord record;
   record.program_version = run.text("program_version");
   record.command = run.text("command");
@@ -207,7 +212,7 @@ std::vector<std::uint8_t> bytesOf(const std::filesystem::path& path) {
 
 }  // namespace
 
-RunRecord runRecordFromJson(const std::string& text, const std::string& file,
+SavedRun runFromJson(const std::string& text, const std::string& file,
                             const MapDocument& document) {
   Json json;
   try {
@@ -215,16 +220,19 @@ RunRecord runRecordFromJson(const std::string& text, const std::string& file,
   } catch (const Json::exception& error) {
     throw FileError(file, std::string("is no JSON: ") + error.what());
   }
-  return readRun(JsonFields(json, file), document);
+  const JsonFields run(json, file);
+  MapFigures figures = readFigures(run, document);
+  return {readRecord(run, document), std::move(figures)};
 }
 
-RunRecord loadRunRecord(const std::string& folder, const MapDocument& document) {
+SavedRun loadRun(const std::string& folder, const MapDocument& document) {
   const std::filesystem::path base(folder);
   const std::string file = (base / "run.json").string();
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw FileError(file, "cannot be read; csom map writes it");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  RunRecord record = runRecordFromJson(text, file, document);
+  SavedRun run = runFromJson(text, file, document);
+  RunRecord& record = run.record;
 
   std::vector<CameraPicture> found;
   for (CameraPicture& picture : record.pictures) {
@@ -235,7 +243,7 @@ RunRecord loadRunRecord(const std::string& folder, const MapDocument& document) 
     if (!picture.segmentation.empty() && !picture.points.empty()) found.push_back(picture);
   }
   record.pictures = std::move(found);
-  return record;
+  return run;
 }
 
 }  // namespace csom

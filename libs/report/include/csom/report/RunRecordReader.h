@@ -9,15 +9,20 @@
 
 namespace csom {
 
+/// What toJson() writes.
+struct SavedRun {
+  RunRecord record;
+  MapFigures figures;  ///< of the document; `memory_bytes` as it was in the run
+};
+
 /// The inverse of toJson(), with the help of the scans that the map file keeps. `text` is that of a
 /// run.json, `file` names it in errors. Pictures of cameras are described in it but not held: see
-/// loadRunRecord(). Throws FileError if it is no run record, or if it belongs to another map than
+/// loadRun(). Throws FileError if it is no run record, or if it belongs to another map than
 /// `document`.
-RunRecord runRecordFromJson(const std::string& text, const std::string& file,
-                            const MapDocument& document);
+SavedRun runFromJson(const std::string& text, const std::string& file, const MapDocument& document);
 
 /// run.json of a folder with the camera pictures beside it. Pictures of which no file is there are
 /// left out. Throws FileError.
-RunRecord loadRunRecord(const std::string& folder, const MapDocument& document);
+SavedRun loadRun(const std::string& folder, const MapDocument& document);
 
 }  // namespace csom
