@@ -73,6 +73,7 @@ template <class Write>
 void writeStream(const std::string& file, Write&& write) {
   OutputFile out(file);
   std::ofstream stream(out.path(), std::ios::binary);
+  stream.precision(std::numeric_limits<double>::max_digits10);  // of the resolution
   if (!write(stream) || !stream.flush()) throw FileError(file, "cannot be written");
   stream.close();
   out.commit();
@@ -91,7 +92,14 @@ std::size_t writeOctomap(const VoxelSelection& selection, const LabelSet& labels
   if (extension == ".bt") {
     octomap::OcTree tree(voxels.resolution());
     const std::size_t occupied = fill(voxels, tree, [](octomap::OcTreeNode&, ClassId) {});
-    writeStream(file, [&](std::ostream& out) { return tree.writeBinary(out); });
+    tree.toMaxLikelihood();
+    tree.prune();
+    writeStream(file, [&](std::ostream& out) -> std::ostream& {
+      // OcTree::writeBinary() does the same, and prints to standard error.
+      out << "# Octomap OcTree binary file\nid OcTree\nsize " << tree.size() << "\nres "
+          << tree.getResolution() << "\ndata\n";
+      return tree.writeBinaryData(out);
+    });
     return occupied;
   }
   octomap::ColorOcTree tree(voxels.resolution());
