@@ -10,7 +10,6 @@ namespace csom {
 void addSimulateCommand(CLI::App& program);
 void addImportCommand(CLI::App& program);
 void addMapCommand(CLI::App& program);
-void addReportCommand(CLI::App& program);
 void addInfoCommand(CLI::App& program);
 void addQueryCommand(CLI::App& program);
 void addMergeCommand(CLI::App& program);
@@ -21,5 +20,6 @@ void addEvalPointsCommand(CLI::App& eval);
 void addEvalRocCommand(CLI::App& eval);
 void addEvalRunCommand(CLI::App& eval);
 void addExportCommand(CLI::App& program);
+void addReportCommand(CLI::App& program);
 
 }  // namespace csom

@@ -44,10 +44,10 @@ int main(int argc, char** argv) {
       "'csom COMMAND --help' shows the options and examples of a command.\n"
       "Exit codes: 0 done, 1 failed, 2 wrong usage or configuration.");
   csom::addMapCommand(program);
-  csom::addReportCommand(program);
   csom::addInfoCommand(program);
   csom::addQueryCommand(program);
   csom::addExportCommand(program);
+  csom::addReportCommand(program);
   csom::addEvalCommand(program);
   csom::addMergeCommand(program);
   csom::addImportCommand(program);
