@@ -63,6 +63,8 @@ DistanceField::DistanceField(const VoxelSelection& voxels, double max_distance)
   const double reach = std::ceil(max_distance / resolution_);
   if (!(max_distance > 0) || !(reach < 30000))
     throw ConfigError("the maximum distance must lie between 0 and 30,000 voxels");
+  const VoxelSelection obstacles = voxels.withoutBox().withFreeVoxels(false);
+  obstacles.requireVoxels();
   VoxelFilter all;
   all.free_voxels = true;
   const VoxelSelection everything(voxels.map(), all, voxels.frame());
@@ -81,8 +83,6 @@ DistanceField::DistanceField(const VoxelSelection& voxels, double max_distance)
   DynamicEDT3D distances((margin + 1) * (margin + 1));
   distances.initializeEmpty(around.max.x - around.min.x + 1, around.max.y - around.min.y + 1,
                             around.max.z - around.min.z + 1);
-  const VoxelSelection obstacles = voxels.withoutBox().withFreeVoxels(false);
-  obstacles.requireVoxels();
   obstacles.forEachResampled([&](const VoxelIndex& v, const ExportedVoxel&) {
     if (contains(around, v))
       distances.occupyCell(v.x - around.min.x, v.y - around.min.y, v.z - around.min.z);

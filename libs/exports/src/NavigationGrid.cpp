@@ -97,8 +97,9 @@ void NavigationGrid::spreadGround(const NavigationOptions& options) {
           "no column of the map stands on a traversable class; name others with --traversable, or "
           "the heights at which obstacles count with --obstacle-band");
     // The last voxel below the band.
+    const double below = std::ceil(options.band->low / resolution_ - 0.5) - 1;
     const auto ground =
-        static_cast<std::int32_t>(std::ceil(options.band->low / resolution_ - 0.5)) - 1;
+        static_cast<std::int32_t>(std::clamp<double>(below, -kMaxVoxelIndex - 2, kMaxVoxelIndex));
     for (Cell& cell : cells_) cell.ground = ground;
   }
   const auto row = static_cast<std::size_t>(width_);

@@ -23,7 +23,7 @@ struct Discard {
 std::string zipErrorText(int code) {
   zip_error_t error;
   zip_error_init_with_code(&error, code);
-  const std::string text = zip_error_strerror(&error);
+  std::string text = zip_error_strerror(&error);
   zip_error_fini(&error);
   return text;
 }
@@ -98,7 +98,7 @@ void NumpyArchive::write(const std::string& target) {
   // Reads and packs the arrays; frees the archive only if that went well.
   if (zip_close(archive.get()) != 0)
     throw FileError(target, std::string("cannot be written: ") + zip_strerror(archive.get()));
-  archive.release();
+  (void)archive.release();
   out.commit();
 }
 
