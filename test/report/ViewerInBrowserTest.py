@@ -26,13 +26,13 @@ CSOM, SOURCE, SCREENSHOTS = (pathlib.Path(path).resolve() for path in sys.argv[1
 SECONDS_TO_FIRST_PICTURE = 10
 
 
-def start_browser(profile):
+def start_browser(profile, webgl=True):
     options = webdriver.ChromeOptions()
     options.binary_location = "/usr/bin/chromium"
     for argument in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--hide-scrollbars",
-                     "--use-gl=angle", "--use-angle=swiftshader", "--ignore-gpu-blocklist",
-                     "--enable-unsafe-swiftshader", "--force-color-profile=srgb", "--window-size=1200,1000",
-                     f"--user-data-dir={profile}"):
+                     "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                     "--ignore-gpu-blocklist" if webgl else "--disable-3d-apis",
+                     "--force-color-profile=srgb", "--window-size=1200,1000", f"--user-data-dir={profile}"):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
@@ -65,6 +65,7 @@ def share_that_differs(a, b):
 
 class BrowserTest(unittest.TestCase):
     resolution = None
+    webgl = True
 
     @classmethod
     def setUpClass(cls):
@@ -73,7 +74,7 @@ class BrowserTest(unittest.TestCase):
         cls.addClassCleanup(cls.scratch.cleanup)
         folder = pathlib.Path(cls.scratch.name)
         cls.out = map_campus(folder, cls.resolution)
-        cls.browser = start_browser(folder / "profile")
+        cls.browser = start_browser(folder / "profile", cls.webgl)
         cls.addClassCleanup(cls.browser.quit)
 
     def setUp(self):
@@ -84,7 +85,8 @@ class BrowserTest(unittest.TestCase):
 
     def open(self):
         self.browser.get((self.out / "report.html").as_uri())
-        self.wait_for_picture()
+        if self.webgl:
+            self.wait_for_picture()
 
     # What is on the page
 
@@ -343,6 +345,21 @@ class MillionVoxelsTest(BrowserTest):
         self.assertLess(first, SECONDS_TO_FIRST_PICTURE)
         self.canvas().send_keys(Keys.ARROW_LEFT)
         self.assert_changed(before, self.picture(), 0.01)
+
+
+class NoWebGlTest(BrowserTest):
+    webgl = False
+
+    def test_says_so_and_shows_the_pictures(self):
+        told = WebDriverWait(self.browser, 10).until(lambda _: self.find("#viewer.failed .status"))
+        self.assertIn("cannot show the map in three dimensions", told.text)
+        self.assertFalse(self.find("#viewer .controls").is_displayed())
+        pictures = self.browser.find_elements(By.CSS_SELECTOR, ".gallery img")
+        self.assertEqual(len(pictures), 4)
+        for picture in pictures:
+            self.assertGreater(int(picture.get_property("naturalWidth")), 300)
+            self.assertTrue(picture.get_attribute("alt"))
+        self.save_page("without-webgl")
 
 
 if __name__ == "__main__":

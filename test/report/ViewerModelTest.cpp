@@ -139,6 +139,14 @@ TEST(ViewerModelTest, TooManyVoxelsBecomeCubesOfWhichTheBestKnownVoxelIsShown) {
   EXPECT_EQ(viewerModel(document, test::sampleRecord(), 4).voxels_per_cube, 1);
 }
 
+TEST(ViewerModelTest, ScatteredVoxelsDoNotFillThePageWithEmptyTiles) {
+  std::vector<test::LabelledVoxel> scattered;
+  for (int i = 0; i < 16'000; ++i) scattered.push_back({{32 * i, 0, 0}, 1});
+  const ViewerModel model = viewerModel(test::mapOf(scattered), test::sampleRecord());
+  EXPECT_EQ(model.cubes, 16'000u);
+  EXPECT_EQ(json::parse(model.header)["tiles"], 8'000);
+}
+
 TEST(ViewerModelTest, AMapWithoutOccupiedVoxelsHasNoModel) {
   const ViewerModel model = viewerModel(test::mapOf({{{0, 0, 0}, 0}}), test::sampleRecord());
   EXPECT_EQ(model.cubes, 0u);

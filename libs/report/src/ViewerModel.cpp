@@ -12,6 +12,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -32,6 +33,8 @@ constexpr int kTileBits = 5;
 constexpr int kWordsPerTile = 1 << 2 * kTileBits;
 constexpr int kLevels = kChunkBits + 1;  ///< a cube is a part of a chunk
 constexpr std::size_t kLongestVector = 6;
+/// A tile costs the browser some kilobytes, however empty it is.
+constexpr std::size_t kMostTiles = 15'000;
 
 /// Calls visit(VoxelIndex, DirichletVoxel) for every occupied voxel, chunk by chunk.
 template <class Visitor>
@@ -45,29 +48,45 @@ VoxelIndex cubeOf(const VoxelIndex& v, int level) {
   return {v.x >> level, v.y >> level, v.z >> level};
 }
 
-/// The finest level at which there are not more than `most` cubes; else the coarsest.
-int levelFor(const SemanticMap& map, std::size_t most) {
-  std::array<std::size_t, kLevels> counts{};
-  std::array<std::bitset<kVoxelsPerChunk>, kLevels> seen;
-  std::optional<ChunkIndex> chunk;
-  const auto add = [&] {
-    for (std::size_t level = 0; level < kLevels; ++level) {
-      counts[level] += seen[level].count();
-      seen[level].reset();
-    }
-  };
-  forEachOccupied(map, [&](const VoxelIndex& index, const DirichletVoxel&) {
-    if (chunk != chunkOf(index)) add();
-    chunk = chunkOf(index);
-    for (int level = 0; level < kLevels; ++level)
-      seen[static_cast<std::size_t>(level)].set(
-          static_cast<std::size_t>(indexInChunk(cubeOf(index, level))));
-  });
-  add();
-  const auto fitting =
-      std::find_if(counts.begin(), counts.end(), [&](std::size_t count) { return count <= most; });
-  return std::min(static_cast<int>(fitting - counts.begin()), kLevels - 1);
-}
+/// How many cubes and tiles a map has at each level.
+class LevelSizes {
+ public:
+  explicit LevelSizes(const SemanticMap& map) {
+    std::array<std::bitset<kVoxelsPerChunk>, kLevels> seen;
+    std::optional<ChunkIndex> chunk;
+    const auto countChunk = [&] {
+      if (!chunk) return;
+      for (std::size_t level = 0; level < kLevels; ++level) {
+        cubes_[level] += seen[level].count();
+        const int shift = kTileBits - kChunkBits + static_cast<int>(level);
+        tiles_[level].insert({chunk->x >> shift, chunk->y >> shift, chunk->z >> shift});
+        seen[level].reset();
+      }
+    };
+    forEachOccupied(map, [&](const VoxelIndex& index, const DirichletVoxel&) {
+      if (chunk != chunkOf(index)) countChunk();
+      chunk = chunkOf(index);
+      for (int level = 0; level < kLevels; ++level)
+        seen[static_cast<std::size_t>(level)].set(
+            static_cast<std::size_t>(indexInChunk(cubeOf(index, level))));
+    });
+    countChunk();
+  }
+
+  /// The finest level with at most so many cubes and tiles; else the coarsest.
+  int fitting(std::size_t most_cubes, std::size_t most_tiles) const {
+    int level = 0;
+    const auto fits = [&](std::size_t l) {
+      return cubes_[l] <= most_cubes && tiles_[l].size() <= most_tiles;
+    };
+    while (level < kLevels - 1 && !fits(static_cast<std::size_t>(level))) ++level;
+    return level;
+  }
+
+ private:
+  std::array<std::size_t, kLevels> cubes_{};
+  std::array<std::set<Index>, kLevels> tiles_;
+};
 
 struct Cube {
   Index tile{};
@@ -309,7 +328,7 @@ std::vector<std::uint8_t> deflated(const std::vector<std::uint8_t>& bytes) {
 ViewerModel viewerModel(const MapDocument& document, const RunRecord& record,
                         std::size_t most_cubes) {
   ViewerModel model;
-  const int level = levelFor(document.map, most_cubes);
+  const int level = LevelSizes(document.map).fitting(most_cubes, kMostTiles);
   const CubePacker packer(document, level);
   model.cubes = packer.cubes().size();
   model.voxels_per_cube = 1 << level;

@@ -28,7 +28,8 @@ struct ViewerModel {
   std::vector<std::uint8_t> data;
 };
 
-/// Of more than `most_cubes` voxels, cubes of 2×2×2 or more show the one of most evidence each.
+/// Of more than `most_cubes` voxels, or of ones that are scattered over too many tiles, cubes of
+/// 2×2×2 or more show the one of most evidence each.
 ViewerModel viewerModel(const MapDocument& document, const RunRecord& record,
                         std::size_t most_cubes = 1'500'000);
 
