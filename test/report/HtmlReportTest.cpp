@@ -82,10 +82,12 @@ TEST(HtmlReportTest, NeedsNothingFromOutside) {
 TEST(HtmlReportTest, ThePictureIsInsideAndHasAnAltText) {
   const MapDocument document = test::mapOf({{{0, 0, 0}, 1}});
   const std::vector<std::uint8_t> png = mapPicturePng(document, MapView::Side);
-  const std::string page = htmlReport(test::sampleRecord(), document, figuresOf(document), {{MapView::Side, png}});
+  const std::string page =
+      htmlReport(test::sampleRecord(), document, figuresOf(document), {{MapView::Side, png}});
   EXPECT_THAT(page, HasSubstr("src=\"data:image/png;base64," + encodeBase64(png) + "\""));
   EXPECT_THAT(page, HasSubstr("alt=\"The map from the side"));
-  EXPECT_THAT(htmlReport(test::sampleRecord(), document, figuresOf(document), {}), Not(HasSubstr("<img")));
+  EXPECT_THAT(htmlReport(test::sampleRecord(), document, figuresOf(document), {}),
+              Not(HasSubstr("<img")));
 }
 
 TEST(HtmlReportTest, NoTextOfARunBecomesMarkup) {

@@ -207,8 +207,8 @@ TEST(MapPictureTest, TheFrontShowsWhatIsNearestWithUpToTheTop) {
 }
 
 TEST(MapPictureTest, TheSideLooksAgainstX) {
-  const cv::Mat image = drawn(
-      test::mapOf({{{0, 0, 0}, 2}, {{4, 0, 0}, 1}, {{0, 6, 0}, 3}}), {}, MapView::Side);
+  const cv::Mat image =
+      drawn(test::mapOf({{{0, 0, 0}, 2}, {{4, 0, 0}, 1}, {{0, 6, 0}, 3}}), {}, MapView::Side);
   const Centroid nearest = find(image, kRed);
   const Centroid along_y = find(image, kBlue);
   ASSERT_GT(std::min(nearest.pixels, along_y.pixels), 0);
@@ -218,8 +218,8 @@ TEST(MapPictureTest, TheSideLooksAgainstX) {
 }
 
 TEST(MapPictureTest, IsometricAxesPointToTheRightTheLeftAndUp) {
-  const cv::Mat image = drawn(
-      test::mapOf({{{0, 0, 0}, 1}, {{5, 0, 0}, 2}, {{0, 5, 0}, 3}}), {}, MapView::Isometric);
+  const cv::Mat image =
+      drawn(test::mapOf({{{0, 0, 0}, 1}, {{5, 0, 0}, 2}, {{0, 5, 0}, 3}}), {}, MapView::Isometric);
   const Centroid origin = find(image, kRed);
   const Centroid along_x = find(image, kGreen);
   const Centroid along_y = find(image, kBlue);
@@ -261,8 +261,8 @@ TEST(MapPictureTest, ColoursForColourBlindEyesAreFarFromOneAnother) {
   std::string yaml = "name: many\nclasses:\n  - {id: 0, name: free, color: [255, 255, 255]}\n";
   std::vector<test::LabelledVoxel> voxels;
   for (int k = 1; k < 22; ++k) {
-    yaml += "  - {id: " + std::to_string(k) + ", name: c" + std::to_string(k) +
-            ", color: [9, 9, " + std::to_string(k) + "]}\n";
+    yaml += "  - {id: " + std::to_string(k) + ", name: c" + std::to_string(k) + ", color: [9, 9, " +
+            std::to_string(k) + "]}\n";
     for (int i = 0; i < k; ++i) voxels.push_back({{k, i, 0}, static_cast<ClassId>(k)});
   }
   const std::vector<Color> colors =

@@ -50,7 +50,7 @@ TEST_F(ReportTest, WritesPagePicturesAndRecordAndNoOthers) {
   writeReport(test::sampleRecord(), document_, figures_, (folder_ / "a" / "b").string());
   folder_ = folder_ / "a" / "b";
   EXPECT_EQ(files(), (std::set<std::string>{"run.json", "top.png", "front.png", "side.png",
-                                             "isometric.png", "report.html"}));
+                                            "isometric.png", "report.html"}));
   const std::string json = read("run.json");
   EXPECT_EQ(json.front(), '{');
   EXPECT_EQ(json.back(), '\n');

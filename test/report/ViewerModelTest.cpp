@@ -123,11 +123,8 @@ TEST(ViewerModelTest, FollowsTheUpOfTheRobot) {
 }
 
 TEST(ViewerModelTest, TooManyVoxelsBecomeCubesOfWhichTheBestKnownVoxelIsShown) {
-  const MapDocument document = test::mapOf({{{0, 0, 0}, 1},
-                                            {{1, 1, 1}, 2},
-                                            {{1, 1, 1}, 2},
-                                            {{2, 0, 0}, 3},
-                                            {{-1, 0, 0}, 3}});
+  const MapDocument document = test::mapOf(
+      {{{0, 0, 0}, 1}, {{1, 1, 1}, 2}, {{1, 1, 1}, 2}, {{2, 0, 0}, 3}, {{-1, 0, 0}, 3}});
   const ViewerModel model = viewerModel(document, test::sampleRecord(), 3);
   EXPECT_EQ(model.voxels_per_cube, 2);
   const auto cubes = unpacked(model);

@@ -59,9 +59,9 @@ std::vector<std::uint8_t> Canvas::toPng() const {
   cv::resize(image_, reduced, image_.size() / kScale, 0, 0, cv::INTER_AREA);
   std::vector<std::uint8_t> bytes;
   // By default OpenCV is in a hurry: the page carries four of these.
-  if (!cv::imencode(".png", reduced, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9,
-                                             cv::IMWRITE_PNG_STRATEGY,
-                                             cv::IMWRITE_PNG_STRATEGY_DEFAULT}))
+  if (!cv::imencode(".png", reduced, bytes,
+                    {cv::IMWRITE_PNG_COMPRESSION, 9, cv::IMWRITE_PNG_STRATEGY,
+                     cv::IMWRITE_PNG_STRATEGY_DEFAULT}))
     throw std::runtime_error("OpenCV cannot encode PNG");
   return bytes;
 }

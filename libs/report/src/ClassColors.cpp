@@ -50,9 +50,8 @@ std::vector<Color> labelColors(const MapDocument& document) {
 
 std::vector<Color> colorBlindSafeColors(const MapDocument& document) {
   std::vector<std::size_t> voxels(classCount(document), 0);
-  document.map.forEachVoxel([&](const VoxelIndex&, const DirichletVoxel& voxel) {
-    ++voxels[voxel.mostLikelyClass()];
-  });
+  document.map.forEachVoxel(
+      [&](const VoxelIndex&, const DirichletVoxel& voxel) { ++voxels[voxel.mostLikelyClass()]; });
   std::vector<Color> colors(voxels.size(), kFreeSpace);
   std::vector<std::size_t> ranked(voxels.size() - 1);
   std::iota(ranked.begin(), ranked.end(), kFreeClass + 1);

@@ -37,7 +37,6 @@ struct VoxelFilter {
 /// A raster of columns, row 0 at the top of the picture.
 class ColumnGrid {
  public:
-
   /// Covers all seen voxels with at most `max_cells` cells a side; each cell then holds several
   /// voxels a side.
   ColumnGrid(const SemanticMap& map, const Sight& sight, const VoxelFilter& filter, int max_cells);

@@ -13,8 +13,8 @@ std::string toHtml(const HtmlPage& page) {
   std::vector<const WebAsset*> scripts;
   if (page.charts) scripts.insert(scripts.end(), {&kChartLibrary, &kChartScript});
   if (page.viewer)
-    scripts.insert(scripts.end(),
-                   {&kThreeLibrary, &kOrbitControls, &kVoxelsScript, &kViewerScript});
+    scripts.insert(scripts.end(), {&kThreeLibrary, &kOrbitControls, &kVoxelsScript, &kSceneScript,
+                                   &kViewerScript});
 
   std::string policy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'";
   for (std::size_t i = 0; i < scripts.size(); ++i)

@@ -97,13 +97,14 @@ void writeMapPictures(std::ostream& page, const MapFigures& figures,
   page << "<h2>Pictures of the map</h2>\n<div class=\"gallery\">\n";
   for (const MapPicture& picture : pictures) {
     const std::string words = viewInWords(picture.view);
-    page << "<figure><img alt=\"The map f" << words.substr(1)
-         << ", coloured by class, " << extentOf(figures)
+    page << "<figure><img alt=\"The map f" << words.substr(1) << ", coloured by class, "
+         << extentOf(figures)
          << ". The class table below gives the same in figures.\" src=\"data:image/png;base64,"
          << encodeBase64(picture.png) << "\">\n<figcaption>" << words
          << ".</figcaption></figure>\n";
   }
-  page << "</div>\n<p class=\"soft\">One sees the nearest occupied voxel; nearer ones are lighter. Where "
+  page << "</div>\n<p class=\"soft\">One sees the nearest occupied voxel; nearer ones are lighter. "
+          "Where "
        << "there is none, gray is known to be free, white was never seen.</p>\n";
 }
 

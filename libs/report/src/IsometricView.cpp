@@ -131,7 +131,8 @@ struct Extent {
 
 double brightnessOf(const Facet& facet, const CommonRange& heights) {
   const std::array<double, 3> of_face{1.0, 0.66, 0.82};
-  return of_face[static_cast<std::size_t>(facet.face)] * (0.92 + 0.16 * heights.share(facet.height));
+  return of_face[static_cast<std::size_t>(facet.face)] *
+         (0.92 + 0.16 * heights.share(facet.height));
 }
 
 cv::Mat paint(const FacetGrid& grid, const Extent& extent, double edge,
@@ -150,8 +151,8 @@ cv::Mat paint(const FacetGrid& grid, const Extent& extent, double edge,
                   cv::Scalar(kUnknown[2], kUnknown[1], kUnknown[0]));
   for (int row = 0; row < picture.rows; ++row) {
     for (int column = 0; column < picture.cols; ++column) {
-      const Facet& facet = grid.at(extent.left + (column + 0.5) / pixels,
-                                   extent.top - (row + 0.5) / pixels);
+      const Facet& facet =
+          grid.at(extent.left + (column + 0.5) / pixels, extent.top - (row + 0.5) / pixels);
       if (facet.seen())
         picture.at<cv::Vec3b>(row, column) =
             shade(colors[facet.class_id], brightnessOf(facet, heights));

@@ -67,8 +67,7 @@ class JsonFields {
   }
 
   [[noreturn]] void fail(const std::string& place, const std::string& problem) const {
-    failWith("is no run record of this version: " + place + " " + problem +
-             "; run csom map again");
+    failWith("is no run record of this version: " + place + " " + problem + "; run csom map again");
   }
   [[noreturn]] void failWith(const std::string& problem) const { throw FileError(file_, problem); }
   const Json& json() const { return json_; }

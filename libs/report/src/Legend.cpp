@@ -39,8 +39,7 @@ void Legend::addClasses(const DrawnMap& drawn, const LabelSet& labels,
 
   const std::size_t shown = std::min(sorted.size(), kMostClasses);
   for (std::size_t i = 0; i < shown; ++i)
-    entries_.push_back(
-        {shorten(classOf(labels, sorted[i].first).name), colors[sorted[i].first]});
+    entries_.push_back({shorten(classOf(labels, sorted[i].first).name), colors[sorted[i].first]});
   if (shown < sorted.size())
     entries_.push_back({"and " + std::to_string(sorted.size() - shown) + " more", kUnknown});
 }

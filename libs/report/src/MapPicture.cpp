@@ -73,7 +73,8 @@ void drawScaleBar(Canvas& canvas, cv::Point left, double metres_per_pixel,
   canvas.text(formatLength(length) + note, left + cv::Point(0, 24), kInk);
 }
 
-/// Arrows along the axes of the map; the first one, along x wherever that is possible, is its north.
+/// Arrows along the axes of the map; the first one, along x wherever that is possible, is its
+/// north.
 void drawAxes(Canvas& canvas, const std::vector<DrawnAxis>& axes, cv::Point origin) {
   constexpr double kLength = 30;
   for (const DrawnAxis& axis : axes) {

@@ -140,9 +140,8 @@ void readRejects(const JsonFields& run, RunRecord& record) {
                  of_scans.points + record.label_rejects.total() + cameras.dropped());
   for (std::size_t i = 0; i < kRejectReasons; ++i) {
     const char* reason = toString(static_cast<RejectReason>(i));
-    record.unused.rejected[i] =
-        difference(run, "rejects." + std::string(reason), rejects.count(reason),
-                   of_scans.rejected[i]);
+    record.unused.rejected[i] = difference(run, "rejects." + std::string(reason),
+                                           rejects.count(reason), of_scans.rejected[i]);
   }
   visitReports(
       [&](const std::string& name, auto& unused, const auto& scans) {
@@ -177,9 +176,8 @@ RunRecord readRecord(const JsonFields& run, const MapDocument& document) {
   record.pose_source = run.text("pose_source");
   record.label_set = run.text("label_set");
   const Json& up = run.list("up");
-  if (up.size() != 3 || !std::all_of(up.begin(), up.end(), [](const Json& c) {
-        return c.is_number();
-      }))
+  if (up.size() != 3 ||
+      !std::all_of(up.begin(), up.end(), [](const Json& c) { return c.is_number(); }))
     run.fail("up", "is no list of three numbers");
   record.up = {up[0].get<double>(), up[1].get<double>(), up[2].get<double>()};
   record.observations_read = run.object("totals").count("observations_read");
@@ -187,7 +185,8 @@ RunRecord readRecord(const JsonFields& run, const MapDocument& document) {
   for (const JsonFields& refused : run.objects("refused"))
     record.refused.push_back(
         {refused.text("observation_class"), refused.text("reason"), refused.count("count")});
-  if (run.has("camera_labels")) record.camera_labels = readCameraLabels(run.object("camera_labels"));
+  if (run.has("camera_labels"))
+    record.camera_labels = readCameraLabels(run.object("camera_labels"));
   if (run.has("deskew")) {
     const JsonFields deskew = run.object("deskew");
     record.deskew = DeskewCounts{deskew.count("deskewed"), deskew.count("not_needed"),
@@ -213,7 +212,7 @@ std::vector<std::uint8_t> bytesOf(const std::filesystem::path& path) {
 }  // namespace
 
 SavedRun runFromJson(const std::string& text, const std::string& file,
-                            const MapDocument& document) {
+                     const MapDocument& document) {
   Json json;
   try {
     json = Json::parse(text);

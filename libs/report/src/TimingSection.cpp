@@ -48,7 +48,8 @@ std::string timeOfEachScan(const std::vector<RunScan>& scans) {
   chart.summary = together == 1
                       ? "How long each observation took to become part of the map, and its stages."
                       : "How long observations took to become part of the map, and their stages: "
-                        "the slowest of each " + formatCount(together) + " in succession.";
+                        "the slowest of each " +
+                            formatCount(together) + " in succession.";
   chart.x = {"observation", "", false, 1.0, std::nullopt};
   chart.y = {"time", "ms", false, 0.0, std::nullopt};
   for (const Stage& stage : kStages) chart.series.push_back(seriesOf(stage, scans, together));

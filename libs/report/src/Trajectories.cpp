@@ -55,7 +55,8 @@ std::vector<Line> trajectories3d(const RunRecord& record) {
   }
   std::vector<Line> lines;
   for (const auto& [sensor, line] : by_sensor)
-    for (const Line& piece : pieces(line)) lines.push_back(thinned(piece, points / kMostPoints + 1));
+    for (const Line& piece : pieces(line))
+      lines.push_back(thinned(piece, points / kMostPoints + 1));
   return lines;
 }
 

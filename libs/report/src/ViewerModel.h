@@ -18,8 +18,9 @@ struct ViewerModel {
   int voxels_per_cube = 1;  ///< along an edge: 1, 2, 4 or 8
   /// JSON: `resolution` (edge of a cube [m]), `tiles`, `voxels` (cubes), `vectorEntries`,
   /// `voxelsPerCube`, `up` {axis, sign}, `focus` {low, high} (the box of most cubes), `layers`
-  /// {low, high} (indices along up), `classes` (those that occur, the largest first; `shown`: at first), `classNames`
-  /// (all, by id, with `color` and `safeColor` for colour-blind eyes), `variance` and `evidence` {min, max}, `trajectories` (a list of points a sensor).
+  /// {low, high} (indices along up), `classes` (those that occur, the largest first; `shown`: at
+  /// first), `classNames` (all, by id, with `color` and `safeColor` for colour-blind eyes),
+  /// `variance` and `evidence` {min, max}, `trajectories` (a list of points a sensor).
   std::string header;
   /// zlib stream of: i32[3·tiles] indices of the tiles of 32×32×32 cubes; u32[1024·tiles] their
   /// cubes, bit x of word 32·z + y; and for each cube in this order u8 length of its class vector,

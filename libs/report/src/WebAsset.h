@@ -21,6 +21,7 @@ extern const WebAsset kOrbitControls;
 extern const WebAsset kLicences;  ///< of the libraries
 extern const WebAsset kViewerMarkup;
 extern const WebAsset kVoxelsScript;
+extern const WebAsset kSceneScript;
 extern const WebAsset kViewerScript;
 
 /// <script>…</script>

@@ -19,8 +19,8 @@ struct MapPicture {
   std::vector<std::uint8_t> png;
 };
 
-/// HTML 5 text that needs nothing else: no network, and the pictures, the voxels and the scripts that
-/// show them inside. `figures` are those of the document. Every text of the record is escaped.
+/// HTML 5 text that needs nothing else: no network, and the pictures, the voxels and the scripts
+/// that show them inside. `figures` are those of the document. Every text of the record is escaped.
 std::string htmlReport(const RunRecord& record, const MapDocument& document,
                        const MapFigures& figures, const std::vector<MapPicture>& pictures);
 

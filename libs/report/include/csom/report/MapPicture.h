@@ -13,8 +13,8 @@
 
 namespace csom {
 
-/// From above; two elevations, which look along the second and against the first axis of the ground;
-/// and from obliquely above, all three axes at the same scale.
+/// From above; two elevations, which look along the second and against the first axis of the
+/// ground; and from obliquely above, all three axes at the same scale.
 enum class MapView { Top, Front, Side, Isometric };
 inline constexpr std::array kMapViews{MapView::Top, MapView::Isometric, MapView::Front,
                                       MapView::Side};

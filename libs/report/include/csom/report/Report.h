@@ -4,8 +4,8 @@
 
 #include <csom/io/MapFile.h>
 #include <csom/report/MapFigures.h>
-#include <csom/report/RunRecord.h>
 #include <csom/report/MapPicture.h>
+#include <csom/report/RunRecord.h>
 
 #include <string>
 #include <vector>
@@ -13,11 +13,11 @@
 namespace csom {
 
 struct ReportOptions {
-  bool json = true;              ///< run.json
-  bool png = true;               ///< top.png, front.png, side.png, isometric.png
-  bool html = true;              ///< report.html
-  bool pictures = true;          ///< camera-….jpg
-  MapPictureOptions map_picture; ///< its `up` is that of the record
+  bool json = true;               ///< run.json
+  bool png = true;                ///< top.png, front.png, side.png, isometric.png
+  bool html = true;               ///< report.html
+  bool pictures = true;           ///< camera-….jpg
+  MapPictureOptions map_picture;  ///< its `up` is that of the record
 };
 
 /// Names of all files that writeReport() may write with these options.
