@@ -14,6 +14,8 @@
 #include <set>
 #include <vector>
 
+#include "core/NaiveSurfaceOracle.h"
+
 namespace csom::test {
 
 class NaiveOracle {
@@ -27,6 +29,7 @@ class NaiveOracle {
   /// Kernel mass by voxel and class that one scan of valid points adds.
   std::map<Cell, Vector> increments(const Scan& scan) {
     mass_.clear();
+    undecided_.clear();
     std::vector<Point> raw;
     for (std::size_t i = 0; i < scan.points.size(); ++i) {
       Vector c(classes_, 0.0);
@@ -46,12 +49,18 @@ class NaiveOracle {
     }
     if (o_.method == Method::SCsm) {
       for (const Point& p : training) add(cellOf(p.xyz, o_.resolution), p.c, 1.0);
+    } else if (o_.method == Method::SurfaceCsom) {
+      inferSurfaces(training);
     } else {
       infer(training);
     }
     if (o_.free_space == FreeSpace::Raycast) castRays(raw, hits, scan.origin);
     return mass_;
   }
+
+  /// True if the last scan's increments of the voxel depend on a decision that rounding may turn
+  /// round; surface-csom alone takes such.
+  bool isUndecided(const Cell& voxel) const { return undecided_.count(voxel) > 0; }
 
  private:
   struct Point {
@@ -139,15 +148,44 @@ class NaiveOracle {
     return std::clamp((all - max) / all + spread / static_cast<double>(classes_), 0.0, 1.0);
   }
 
+  using PointsByBlock = std::map<Cell, std::vector<const Point*>>;
+
+  Cell blockOf(Cell voxel) const {
+    const double side = 1 << (o_.block_depth - 1);
+    for (auto& i : voxel) i = static_cast<std::int64_t>(std::floor(static_cast<double>(i) / side));
+    return voxel;
+  }
+
+  PointsByBlock byBlock(const std::vector<Point>& training) const {
+    PointsByBlock observed;
+    for (const Point& p : training) observed[blockOf(cellOf(p.xyz, o_.resolution))].push_back(&p);
+    return observed;
+  }
+
+  double kernelLength(double entropy, bool adaptive) const {
+    return adaptive ? o_.kernelLengthMin() + entropy * (o_.kernelLengthMax() - o_.kernelLengthMin())
+                    : o_.kernelLengthFixed();
+  }
+
+  void inferSurfaces(const std::vector<Point>& training) {
+    std::vector<NaiveSurfaceOracle::Point> points;
+    for (const Point& p : training) points.push_back({p.xyz / o_.resolution, p.c});
+    const PointsByBlock observed = byBlock(training);
+    NaiveSurfaceOracle surfaces(o_, std::move(points));
+    mass_ = surfaces.increments([&](const Cell& voxel) {
+      const auto own = observed.find(blockOf(voxel));
+      const double entropy =
+          classEntropy(own == observed.end() ? std::vector<const Point*>{} : own->second);
+      return kernelLength(entropy, o_.aklm) / o_.resolution;
+    });
+    for (const auto& [voxel, mass] : mass_)
+      if (surfaces.isUndecided(voxel)) undecided_.insert(voxel);
+  }
+
   void infer(const std::vector<Point>& training) {
     const int side = 1 << (o_.block_depth - 1);
     const double s = side * o_.resolution;
-    std::map<Cell, std::vector<const Point*>> observed;
-    for (const Point& p : training) {
-      Cell b = cellOf(p.xyz, o_.resolution);
-      for (auto& i : b) i = static_cast<std::int64_t>(std::floor(static_cast<double>(i) / side));
-      observed[b].push_back(&p);
-    }
+    const PointsByBlock observed = byBlock(training);
     const int kinds = o_.context_neighbours == 6 ? 1 : o_.context_neighbours == 18 ? 2 : 3;
     std::set<Cell> candidates;
     const auto forExtended = [&](const Cell& b, auto&& visit) {
@@ -176,10 +214,7 @@ class NaiveOracle {
       const auto own = observed.find(b);
       const double entropy =
           classEntropy(own == observed.end() ? std::vector<const Point*>{} : own->second);
-      const double length =
-          o_.method == Method::SeeCsom && o_.aklm
-              ? o_.kernelLengthMin() + entropy * (o_.kernelLengthMax() - o_.kernelLengthMin())
-              : o_.kernelLengthFixed();
+      const double length = kernelLength(entropy, o_.method == Method::SeeCsom && o_.aklm);
       std::vector<const Point*> neighbourhood;
       if (o_.neighbourhood == Neighbourhood::Radius) {
         for (const Point& p : training) neighbourhood.push_back(&p);
@@ -239,6 +274,7 @@ class NaiveOracle {
   Options o_;
   std::size_t classes_;
   std::map<Cell, Vector> mass_;
+  std::set<Cell> undecided_;
 };
 
 }  // namespace csom::test

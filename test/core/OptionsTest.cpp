@@ -59,7 +59,8 @@ TEST(Options, DefaultsAreValidAndDerivedLengthsFollowTheResolution) {
 }
 
 TEST(Options, ErrorsNameKeyValueAndWhatIsAccepted) {
-  EXPECT_EQ(messageOf("method", "octomap"), "method = octomap: expected see-csom | s-bki | s-csm");
+  EXPECT_EQ(messageOf("method", "octomap"),
+            "method = octomap: expected surface-csom | see-csom | s-bki | s-csm");
   EXPECT_THAT(messageOf("resolution", "0,2"),
               HasSubstr("resolution = 0,2: expected a finite number"));
   EXPECT_THAT(messageOf("resolution", "nan"), HasSubstr("resolution = nan"));

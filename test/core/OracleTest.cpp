@@ -2,6 +2,9 @@
 // The engine against the naive oracle, voxel by voxel and class by class.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+
 #include "core/NaiveOracle.h"
 #include "core/RandomScans.h"
 
@@ -11,7 +14,10 @@ namespace {
 class Oracle : public testing::TestWithParam<Method> {};
 
 TEST_P(Oracle, AgreesWithinOneQuantum) {
+  // The directions of surfaces, and differences of their sums, are found in single precision.
+  const double of_voxel = GetParam() == Method::SurfaceCsom ? 5e-4 : 0;
   std::size_t compared = 0;
+  std::size_t undecided = 0;
   int filled_cases = 0;
   for (int seed = 0; seed < kRandomCases; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -20,26 +26,32 @@ TEST_P(Oracle, AgreesWithinOneQuantum) {
     const Scan scan = random.scan(options, options.block_depth > 2 ? 40 : 120);
     SemanticMap map(options);
     map.insert(scan);
-    const auto expected = NaiveOracle(options).increments(scan);
+    NaiveOracle oracle(options);
+    const auto expected = oracle.increments(scan);
 
     std::size_t known = 0;
     map.forEachVoxel([&](const VoxelIndex& v, const DirichletVoxel& voxel) {
       ++known;
+      if (oracle.isUndecided({v.x, v.y, v.z})) {
+        ++undecided;
+        return;
+      }
       const auto found = expected.find({v.x, v.y, v.z});
       ASSERT_NE(found, expected.end()) << "voxel that the equations do not fill";
+      const double sum = std::accumulate(found->second.begin(), found->second.end(), 0.0);
       for (int k = 0; k < options.number_of_classes; ++k) {
         const double mass = found->second[static_cast<std::size_t>(k)];
         // Two sources may fill one voxel (kernels and crossing beams), each rounded once.
         const double roundings = options.free_space == FreeSpace::Raycast && k == 0 ? 2 : 1;
         ASSERT_NEAR(voxel.evidence(static_cast<ClassId>(k)), mass,
-                    roundings * kCountQuantum + 1e-5 * mass)
+                    roundings * kCountQuantum + 1e-5 * mass + of_voxel * sum)
             << "voxel " << v.x << ' ' << v.y << ' ' << v.z << " class " << k;
         ++compared;
       }
     });
     for (const auto& [cell, mass] : expected) {
       const double largest = *std::max_element(mass.begin(), mass.end());
-      if (largest < 1.5 * kCountQuantum) continue;
+      if (largest < 1.5 * kCountQuantum || oracle.isUndecided(cell)) continue;
       const VoxelIndex v{static_cast<std::int32_t>(cell[0]), static_cast<std::int32_t>(cell[1]),
                          static_cast<std::int32_t>(cell[2])};
       ASSERT_TRUE(map.voxel(v).known())
@@ -48,11 +60,15 @@ TEST_P(Oracle, AgreesWithinOneQuantum) {
     filled_cases += known > 0 ? 1 : 0;
   }
   EXPECT_GT(compared, 100000U);
+  EXPECT_LT(undecided, compared / 50) << compared;
+  std::printf("%zu %zu\n", compared, undecided);
   EXPECT_GT(filled_cases, kRandomCases * 9 / 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Oracle,
-                         testing::Values(Method::SeeCsom, Method::SBki, Method::SCsm), methodName);
+                         testing::Values(Method::SurfaceCsom, Method::SeeCsom, Method::SBki,
+                                         Method::SCsm),
+                         methodName);
 
 TEST(OracleFarAway, AgreesEightyMetresFromTheSensor) {
   RandomCase random(7);

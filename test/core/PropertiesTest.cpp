@@ -165,13 +165,21 @@ TEST_P(Properties, QuarterTurnTurnsTheMap) {
   expectMostlyFilled();
 }
 
+/// Without down-sampling, a hit's surface ends nearer than this [m].
+double longestSurface(const Options& options) {
+  const double spacing = std::max(1.1, options.surface_gap);
+  return options.resolution *
+         (options.surface_reach * spacing + options.surface_thickness * std::sqrt(3.0) / 2);
+}
+
 TEST_P(Properties, ProbabilitiesSumToOneAndOccupiedVoxelsHaveAPointNearby) {
   forRandomCases(1, 60, [](RandomCase&, Options options, const std::vector<Scan>& scans) {
     options.ds_resolution = 0;
     const SemanticMap map = mapOf(options, scans);
-    const double reach = options.method == Method::SCsm ? options.resolution
-                         : options.usesClassEntropy()   ? options.kernelLengthMax()
-                                                        : options.kernelLengthFixed();
+    const double reach = options.method == Method::SCsm          ? options.resolution
+                         : options.method == Method::SurfaceCsom ? longestSurface(options)
+                         : options.usesClassEntropy()            ? options.kernelLengthMax()
+                                                                 : options.kernelLengthFixed();
     map.forEachVoxel([&](const VoxelIndex& v, const DirichletVoxel& voxel) {
       const std::vector<double> lambda = voxel.probabilities();
       ASSERT_NEAR(std::accumulate(lambda.begin(), lambda.end(), 0.0), 1.0, 1e-12);
@@ -191,7 +199,9 @@ TEST_P(Properties, ProbabilitiesSumToOneAndOccupiedVoxelsHaveAPointNearby) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Properties,
-                         testing::Values(Method::SeeCsom, Method::SBki, Method::SCsm), methodName);
+                         testing::Values(Method::SurfaceCsom, Method::SeeCsom, Method::SBki,
+                                         Method::SCsm),
+                         methodName);
 
 TEST(RedundantVoxelFilter, FillsASubset) {
   std::size_t filtered = 0;

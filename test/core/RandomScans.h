@@ -48,6 +48,7 @@ class RandomCase {
     o.free_space = oneOf<FreeSpace>({FreeSpace::None, FreeSpace::Sampled, FreeSpace::Raycast});
     o.free_resolution = real(0.2, 0.6);
     o.free_weight = real(0.05, 1.0);
+    if (method == Method::SurfaceCsom) randomizeSurfaces(o);
     if (integer(0, 2) == 0) o.kernel_length = o.resolution * real(0.5, 6);
     if (integer(0, 2) == 0) o.kernel_length_min = o.resolution * real(0.5, 4);
     return o;
@@ -80,6 +81,17 @@ class RandomCase {
   }
 
  private:
+  void randomizeSurfaces(Options& o) {
+    o.surface_planes = integer(0, 3) > 0;
+    o.surface_neighbours = integer(3, 16);
+    o.surface_reach = real(0.8, 2.2);
+    o.surface_gap = real(1, 6);
+    o.surface_thickness = real(0.6, 1.2);
+    o.surface_support = real(0.2, 1);
+    o.surface_hit_weight = real(0, 1);
+    o.surface_free_limit = real(0.1, 2);
+    o.counter_evidence = real(0, 1.5);
+  }
   void addScores(Scan& s, int classes) {
     std::vector<double> raw(static_cast<std::size_t>(classes));
     double sum = 0;
@@ -108,9 +120,17 @@ constexpr int kRandomCases = 200;
 
 /// Name of a test that runs once a method.
 inline std::string methodName(const testing::TestParamInfo<Method>& method) {
-  return method.param == Method::SeeCsom ? "SeeCsom"
-         : method.param == Method::SBki  ? "SBki"
-                                         : "SCsm";
+  switch (method.param) {
+    case Method::SurfaceCsom:
+      return "SurfaceCsom";
+    case Method::SeeCsom:
+      return "SeeCsom";
+    case Method::SBki:
+      return "SBki";
+    case Method::SCsm:
+      return "SCsm";
+  }
+  return "unknown";
 }
 
 }  // namespace csom::test

@@ -134,7 +134,9 @@ TEST_P(ThreadsOfAnInsertion, DoNotMeet) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, ThreadsOfAnInsertion,
-                         testing::Values(Method::SeeCsom, Method::SBki, Method::SCsm), methodName);
+                         testing::Values(Method::SurfaceCsom, Method::SeeCsom, Method::SBki,
+                                         Method::SCsm),
+                         methodName);
 
 }  // namespace
 }  // namespace csom::test

@@ -50,10 +50,10 @@ constexpr float kGuess = 1.2F;
 /// wall.
 constexpr std::uint32_t kMostInRow = 256;
 
-/// Offers the hits among the points of a range to point p.
+/// Offers the hits of a range to hit p.
 CSOM_EVERY_PROCESSOR
-void offerNear(const detail::PointColumns& points, const std::vector<std::uint8_t>& is_free,
-               const detail::PointRange& range, std::uint32_t p, NearestHits& nearest) {
+void offerNear(const detail::PointColumns& points, const detail::PointRange& range, std::uint32_t p,
+               NearestHits& nearest) {
   constexpr float kVoxels = 1.0F / detail::kUnits;
   for (std::uint32_t first = range.first; first < range.last; first += kLanes) {
     const Lanes dx = detail::toFloat(detail::load(points.x.data() + first) - points.x[p]) * kVoxels;
@@ -71,8 +71,7 @@ void offerNear(const detail::PointColumns& points, const std::vector<std::uint8_
     for (std::size_t i = 0; i < found; ++i) {
       const std::uint32_t q = first + lanes[i];
       const float distance = squared[lanes[i]];
-      if (distance < nearest.limitSquared() && q != p && is_free[q] == 0)
-        nearest.offer(distance, q);
+      if (distance < nearest.limitSquared() && q != p) nearest.offer(distance, q);
     }
   }
 }
@@ -85,6 +84,33 @@ struct Neighbourhoods {
   detail::LaneCovariance covariance;
 };
 
+/// A scan without its free samples.
+struct Hits {
+  Hits(const PreparedScan& all, const Options& options) {
+    const auto classes = static_cast<std::size_t>(options.number_of_classes);
+    const auto isFree = [&](std::size_t p) {
+      return all.scores.empty() ? all.points[p].label == kFreeClass
+                                : all.scores[p * classes + kFreeClass] > 0.5F;
+    };
+    scan.block_depth = all.block_depth;
+    for (std::size_t b = 0; b < all.blocks.size(); ++b) {
+      const std::size_t before = point.size();
+      for (std::uint32_t p = all.block_begin[b]; p < all.block_begin[b + 1]; ++p)
+        if (!isFree(p)) point.push_back(p);
+      if (point.size() == before) continue;
+      scan.blocks.push_back(all.blocks[b]);
+      scan.block_begin.push_back(static_cast<std::uint32_t>(before));
+    }
+    scan.block_begin.push_back(static_cast<std::uint32_t>(point.size()));
+    scan.points.reserve(point.size());
+    for (const std::uint32_t p : point) scan.points.push_back(all.points[p]);
+  }
+
+  PreparedScan scan;
+  std::vector<std::uint32_t> point;  ///< which of all points each hit is
+};
+
+/// The surfaces of a scan without free samples.
 class SurfaceSearch {
  public:
   SurfaceSearch(const PreparedScan& scan, const Options& options)
@@ -102,7 +128,6 @@ class SurfaceSearch {
 
   std::vector<LocalSurface> run() {
     surfaces_.resize(scan_.points.size());
-    findFree();
     std::vector<FilledBlock> blocks;
     for (std::size_t b = 0; b < scan_.blocks.size(); ++b)
       blocks.push_back({scan_.blocks[b], static_cast<std::int32_t>(b)});
@@ -140,26 +165,12 @@ class SurfaceSearch {
     return {chunk.x * blocks_per_chunk_, chunk.y * blocks_per_chunk_, chunk.z * blocks_per_chunk_};
   }
 
-  void findFree() {
-    const auto classes = static_cast<std::size_t>(options_.number_of_classes);
-    is_free_.resize(scan_.points.size());
-    for (std::size_t p = 0; p < is_free_.size(); ++p)
-      is_free_[p] = scan_.scores.empty() ? points_.label[p] == kFreeClass
-                                         : scan_.scores[p * classes + kFreeClass] > 0.5F;
-  }
-
   /// `corner` is that of the window.
   void describe(const FilledBlock& block, const BlockIndex& corner, Scratch& scratch) {
     const BlockIndex in_window{block.index.x - corner.x, block.index.y - corner.y,
                                block.index.z - corner.z};
     const auto b = static_cast<std::size_t>(block.observed);
     for (std::uint32_t p = scan_.block_begin[b]; p < scan_.block_begin[b + 1]; ++p) {
-      LocalSurface& surface = surfaces_[p];
-      if (is_free_[p] != 0) {
-        surface.shape = Shape::Free;
-        surface.length = static_cast<float>(options_.kernelLengthMin() / options_.resolution);
-        continue;
-      }
       findNearest(p, in_window, scratch);
       describeNeighbourhood(p, scratch.nearest, scratch.waiting);
       if (scratch.waiting.size == kLanes) setSurfaces(scratch.waiting);
@@ -176,12 +187,12 @@ class SurfaceSearch {
       nearest.reset(wanted, radius * radius);
       for (const detail::PointRange& range : scratch.ranges) {
         if (range.last - range.first <= kMostInRow) {
-          offerNear(points_, is_free_, range, p, nearest);
+          offerNear(points_, range, p, nearest);
           continue;
         }
         const std::uint32_t step = (range.last - range.first + kMostInRow - 1) / kMostInRow;
         for (std::uint32_t q = range.first; q < range.last; q += step)
-          offerNear(points_, is_free_, {q, q + 1}, p, nearest);
+          offerNear(points_, {q, q + 1}, p, nearest);
       }
       if (nearest.complete() || radius == radius_) break;
     }
@@ -286,15 +297,21 @@ class SurfaceSearch {
   double plane_spacing_limit_;  ///< voxels
   float radius_;                ///< within which neighbours are looked for [voxels]
   int reach_;                   ///< the same in blocks
-  std::vector<std::uint8_t> is_free_;
   std::vector<LocalSurface> surfaces_;
 };
 
 }  // namespace
 
 std::vector<LocalSurface> localSurfaces(const PreparedScan& scan, const Options& options) {
-  if (scan.blocks.empty()) return {};
-  return SurfaceSearch(scan, options).run();
+  LocalSurface free;
+  free.shape = Shape::Free;
+  free.length = static_cast<float>(options.kernelLengthMin() / options.resolution);
+  std::vector<LocalSurface> surfaces(scan.points.size(), free);
+  const Hits hits(scan, options);
+  if (hits.point.empty()) return surfaces;
+  const std::vector<LocalSurface> of_hits = SurfaceSearch(hits.scan, options).run();
+  for (std::size_t i = 0; i < of_hits.size(); ++i) surfaces[hits.point[i]] = of_hits[i];
+  return surfaces;
 }
 
 }  // namespace csom

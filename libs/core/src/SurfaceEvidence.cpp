@@ -14,7 +14,7 @@ namespace {
 constexpr float kLeastWeight = 0.3F;
 /// Rows are left out only if they are outside by more than this.
 constexpr float kRounding = 1e-3F;
-/// Where no surface passes through a voxel and so little passes near it, nothing is said.
+/// Where less than this passes near a voxel, a scan's word is worth proportionally less.
 constexpr float kLeastSupport = 0.3F;
 
 struct alignas(kLaneAlignment) AlignedLanes {
@@ -160,9 +160,8 @@ bool SurfaceEvidence::finish() {
     const Lanes support = support_[row].mass;
     const Lanes missing = support < enough ? enough - support : Lanes{};
     const Lanes full = 1 - missing / enough;
-    const Lanes weight = votes > 0.0F || support >= kLeastSupport
-                             ? kLeastWeight + (1 - kLeastWeight) * full
-                             : Lanes{};
+    const Lanes heard = support < kLeastSupport ? support / kLeastSupport : Lanes{} + 1;
+    const Lanes weight = (kLeastWeight + (1 - kLeastWeight) * full) * heard;
     const Lanes density = support > 0.0F ? dense_[row].mass / support : Lanes{};
     // Where surfaces have spoken, the beams that graze them need not.
     const Lanes silence = support < tau_ ? 1 - support / tau_ : Lanes{};

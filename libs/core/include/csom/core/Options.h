@@ -63,7 +63,7 @@ struct Options {
   double surface_reach = 1.8;       ///< kernel length, in units of the spacing of hits
   double surface_gap = 5;           ///< widest spacing that a plane spans, in max(ds, r)
   double surface_thickness = 0.97;  ///< of a plane, in voxels measured along its normal
-  double surface_support = 0.5;     ///< τ, kernel mass that makes a voxel occupied by itself
+  double surface_support = 0.55;    ///< τ, kernel mass that makes a voxel occupied by itself
   double surface_hit_weight = 0.6;  ///< additional mass for the voxel that a hit lies in
   double surface_free_limit = 0.4;  ///< sampled: most evidence of free for a voxel by a scan
   double counter_evidence = 1;      ///< weight of what speaks against a voxel beside a surface
