@@ -19,8 +19,8 @@ install(DIRECTORY config/ DESTINATION ${CSOM_INSTALL_DATADIR}
   FILES_MATCHING PATTERN "*.ini" PATTERN "*.yaml" PATTERN "*.onnx")
 install(DIRECTORY docs/ DESTINATION ${csom_doc_folder})
 install(FILES README.md CHANGELOG.md DESTINATION ${csom_doc_folder} OPTIONAL)
-# Debian's name for the licence file of a package.
-install(FILES LICENSE DESTINATION ${csom_doc_folder} RENAME copyright)
+# The program holds the scripts of its reports, which are under a licence of their own.
+install(FILES packaging/copyright DESTINATION ${csom_doc_folder})
 
 install(EXPORT mrpt_csomTargets NAMESPACE csom:: DESTINATION ${CSOM_INSTALL_CMAKEDIR})
 configure_package_config_file(
@@ -47,7 +47,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # mrpt-apps: the applications that load the plug-in. The -dev packages: what find_package() needs.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS mrpt-apps)
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-  "libeigen3-dev, libtbb-dev, libyaml-cpp-dev, libsqlite3-dev, libzstd-dev, zlib1g-dev, nlohmann-json3-dev, liboctomap-dev, libopencv-dev, libmrpt-maps-dev, libmrpt-slam-dev")
+  "libeigen3-dev, libtbb-dev, libyaml-cpp-dev, libsqlite3-dev, libzstd-dev, zlib1g-dev, nlohmann-json3-dev, liboctomap-dev, libdynamicedt3d-dev, libassimp-dev, libopenvdb-dev, libpng-dev, libzip-dev, libopencv-dev, libmrpt-maps-dev, libmrpt-slam-dev")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
 "Builds maps whose voxels hold a probability for each semantic class, from
 the rawlogs of the Mobile Robot Programming Toolkit or inside its own
