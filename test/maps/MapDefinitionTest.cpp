@@ -71,7 +71,7 @@ TEST_F(MapDefinition, minimalIniGivesAnOccupancyMap) {
 /// A value other than the default, as text.
 struct OtherValue {
   std::string operator()(const std::string& key, double) const {
-    return key == "max_range" ? "50.5" : "0.5";
+    return key == "max_range" ? "50.5" : key == "surface_gap" ? "2.5" : "0.5";
   }
   std::string operator()(const std::string& key, int) const {
     return key == "context_neighbours" ? "18" : "3";

@@ -9,7 +9,7 @@ namespace {
 
 /// Off-diagonal elements shrink quadratically: after four sweeps nothing of them is left in single
 /// precision.
-constexpr int kSweeps = 5;
+constexpr int kSweeps = 4;
 
 using Matrix = std::array<std::array<Lanes, 3>, 3>;
 

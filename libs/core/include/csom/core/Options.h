@@ -34,7 +34,7 @@ struct Options {
   double resolution = 0.2;  ///< r, edge of a voxel [m]
   int block_depth = 2;      ///< D_b; a block is 2^(D_b−1) voxels a side; 1 … 4
 
-  Method method = Method::SeeCsom;
+  Method method = Method::SurfaceCsom;
   bool rvfm = true;  ///< see-csom: redundant-voxel filter by context entropy (eqs. 4–9)
   bool aklm = true;  ///< see-csom, surface-csom: length adapted by class entropy (eqs. 10–15)
   Kernel kernel = Kernel::Sparse;
