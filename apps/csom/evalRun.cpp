@@ -74,7 +74,7 @@ EvaluationRequest requestOf(const EvalRunArguments& arguments) {
 Evaluation evaluateWithProgress(const EvaluationRequest& request) {
   Progress progress("evaluating");
   return runEvaluation(request, [&](std::size_t done, std::size_t total, const std::string& what) {
-    progress.update(done, total, what);
+    progress.update(done, total, [&](double) { return what; });
   });
 }
 

@@ -18,6 +18,7 @@
 
 #include "CommandLine.h"
 #include "MapRecord.h"
+#include "MappingStatus.h"
 #include "OutputFolder.h"
 #include "OutputPaths.h"
 #include "Progress.h"
@@ -55,7 +56,8 @@ MappingRequest requestOf(const MapArguments& arguments) {
 MappingResult mapWithProgress(const MappingRequest& request) {
   Progress progress("mapping");
   return mapLogs(request, [&](const MappingProgress& now) {
-    progress.update(now.entries_done, now.entries, formatCount(now.scans) + " scans");
+    progress.update(now.entries_done, now.entries,
+                    [&](double seconds) { return mappingStatus(now, seconds); });
   });
 }
 

@@ -232,5 +232,51 @@ TEST(MappingRun, ReportsProgressOfAllLogs) {
   EXPECT_EQ(done.back(), 12u);
 }
 
+TEST(MappingRun, ProgressTellsWhatIsInTheMapAndWhatWasLeftOut) {
+  const TempFolder folder;
+  Entries entries = driveEntries(2);
+  const auto cloudWith = [](double time, float label) {
+    auto cloud = wallCloud(time);
+    auto& points = dynamic_cast<mrpt::maps::CPointsMapXYZI&>(*cloud->pointcloud);
+    points.setPointFast(0, std::nanf(""), 0, 0);
+    points.setPointIntensity(1, label);
+    return cloud;
+  };
+  entries.push_back(robotPose(102, {}));
+  entries.push_back(cloudWith(102, 77));
+  auto all_gone = wallCloud(102);
+  auto& points = dynamic_cast<mrpt::maps::CPointsMapXYZI&>(*all_gone->pointcloud);
+  for (std::size_t i = 0; i < points.size(); ++i) points.setPointFast(i, std::nanf(""), 0, 0);
+  const std::size_t gone = points.size();
+  entries.push_back(all_gone);
+  entries.push_back(wallCloud(500));                // no pose there
+  auto gps = mrpt::obs::CObservationGPS::Create();  // nobody wants it
+  gps->timestamp = all_gone->timestamp;
+  entries.push_back(gps);
+  MappingRequest request;
+  request.logs = {writeLog(folder / "a.rawlog", entries)};
+  request.config_file = writeConfig(folder);
+  struct Seen {
+    std::size_t scans, rejected, refused, voxels;
+  };
+  std::vector<Seen> seen;
+  const MappingResult result = mapLogs(request, [&](const MappingProgress& now) {
+    seen.push_back(
+        {now.scans, now.points_rejected, now.observations_refused, now.map.knownVoxelCount()});
+  });
+  ASSERT_EQ(seen.size(), entries.size());
+  EXPECT_EQ(seen[1].scans, 1u);
+  EXPECT_EQ(seen[3].rejected, 0u);
+  EXPECT_GT(seen[3].voxels, seen[1].voxels);
+  EXPECT_EQ(seen[5].rejected, 2u) << "one NaN, one unknown label";
+  EXPECT_EQ(seen[5].refused, 0u);
+  EXPECT_EQ(seen[6].rejected, 2u + gone);
+  EXPECT_EQ(seen[6].refused, 1u);
+  EXPECT_EQ(seen[7].refused, 2u);
+  EXPECT_EQ(seen.back().refused, 2u);
+  EXPECT_EQ(seen.back().scans, 3u);
+  EXPECT_EQ(seen.back().voxels, result.map->map().knownVoxelCount());
+}
+
 }  // namespace
 }  // namespace csom::test

@@ -130,6 +130,7 @@ class MappingRun {
   RawlogSurvey survey(const std::string& log);
   void mapLog(const RawlogSurvey& survey, PoseSource& poses);
   void mapEntry(const detail::PosedEntry& entry);
+  MappingProgress progress(const std::string& log) const;
   void noteRegistration(const PoseSource& poses);
   void insert(const mrpt::obs::CObservation& observation, const CPose3D& pose);
   void flush();
@@ -137,7 +138,12 @@ class MappingRun {
   void keepSeen(const LabelledScan& scan);
   void keep(const mrpt::obs::CObservation::Ptr& observation, const CPose3D& pose);
   void refuse(const mrpt::obs::CObservation& observation, const std::string& reason) {
-    ++result_.refused[{detail::shortName(observation.GetRuntimeClass()->className), reason}];
+    refuse(detail::shortName(observation.GetRuntimeClass()->className), reason);
+  }
+  void refuse(const std::string& observation_class, const std::string& reason) {
+    ++result_.refused[{observation_class, reason}];
+    // A log holds many kinds of observations, and not to want them is no trouble.
+    if (reason != kOtherKind && reason != kNoLabelSource) ++observations_refused_;
   }
   void warn(const std::string& text) { result_.warnings.push_back(text); }
   void warnAboutPoints();
@@ -151,6 +157,8 @@ class MappingRun {
   Eigen::Vector3d up_ = Eigen::Vector3d::Zero();
   std::size_t entries_ = 0;
   std::size_t entries_done_ = 0;
+  std::size_t points_rejected_ = 0;  ///< of the scans in the map
+  std::size_t observations_refused_ = 0;
   /// Key frame that the entry at hand has opened, to which observations of the same pose are added.
   mrpt::obs::CSensoryFrame::Ptr open_frame_;
   CPose3D open_frame_pose_;
@@ -183,8 +191,7 @@ void MappingRun::mapLog(const RawlogSurvey& survey, PoseSource& poses) {
     while (const auto entry = entries.next()) {
       mapEntry(*entry);
       ++entries_done_;
-      if (on_progress_)
-        on_progress_({survey.file, entries_done_, entries_, result_.map->scans().size()});
+      if (on_progress_) on_progress_(progress(survey.file));
     }
   }
   flush();
@@ -248,10 +255,23 @@ void MappingRun::flush() {
 
 void MappingRun::noteScans(std::size_t scans_before, double elapsed_ms) {
   for (const std::string& name : result_.map->lastInsertion().without_points)
-    ++result_.refused[{name, kNoPoints}];
-  const std::size_t added = result_.map->scans().size() - scans_before;
-  for (std::size_t i = 0; i < added; ++i)
+    refuse(name, kNoPoints);
+  const auto& scans = result_.map->scans();
+  const std::size_t added = scans.size() - scans_before;
+  for (std::size_t i = scans_before; i < scans.size(); ++i) {
     result_.insert_ms.push_back(elapsed_ms / static_cast<double>(added));
+    points_rejected_ += scans[i].report.rejectedTotal();
+  }
+}
+
+MappingProgress MappingRun::progress(const std::string& log) const {
+  const CSemanticContinuousMap& map = *result_.map;
+  const InsertionStatistics& statistics = map.statistics();
+  std::size_t rejected =
+      points_rejected_ + statistics.unused.rejectedTotal() + statistics.labels.dropped();
+  if (const auto cameras = map.cameraStatistics()) rejected += cameras->pointsDropped();
+  return {log,      entries_done_,         entries_, map.scans().size(),
+          rejected, observations_refused_, map.map()};
 }
 
 void MappingRun::keepSeen(const LabelledScan& scan) {

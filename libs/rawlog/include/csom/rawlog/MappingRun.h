@@ -30,12 +30,15 @@ struct MappingRequest {
   bool keep_key_frames = false;  ///< fill MappingResult::key_frames, which holds all in memory
 };
 
-/// How far a run has come.
+/// How far a run has come: sums over all logs so far.
 struct MappingProgress {
   const std::string& log;
-  std::size_t entries_done = 0;  ///< of all logs
-  std::size_t entries = 0;
-  std::size_t scans = 0;  ///< inserted so far
+  std::size_t entries_done = 0;
+  std::size_t entries = 0;  ///< there will be
+  std::size_t scans = 0;    ///< inserted
+  std::size_t points_rejected = 0;
+  std::size_t observations_refused = 0;
+  const SemanticMap& map;  ///< as it is now. Its figures are counted when they are asked for
 };
 
 struct MappedLog {
