@@ -14,12 +14,14 @@ namespace {
 
 using testing::HasSubstr;
 
-SemanticMap scatteredMap() {
+/// `stretch`: of the place along x.
+SemanticMap scatteredMap(int stretch = 1) {
   std::mt19937 random(3);
   std::uniform_int_distribution<int> place(-15, 15);
   std::vector<LabelledVoxel> voxels;
   for (int i = 0; i < 120; ++i)
-    voxels.push_back({{place(random), place(random), place(random)}, static_cast<ClassId>(i % 4)});
+    voxels.push_back(
+        {{stretch * place(random), place(random), place(random)}, static_cast<ClassId>(i % 4)});
   return mapOf(voxels);
 }
 
@@ -57,6 +59,28 @@ TEST(DistanceField, IsTheDistanceToTheNearestObstacle) {
     cut_off += truth == max_distance ? 1 : 0;
   });
   EXPECT_GT(cut_off, 100U);
+}
+
+// With a margin of 30 voxels it is computed in several pieces; across their borders, too, it is the
+// distance.
+TEST(DistanceField, OfALargeBoxIsTheSame) {
+  const SemanticMap map = scatteredMap(20);
+  const double max_distance = 15;
+  VoxelFilter filter;
+  filter.classes = {2};
+  const DistanceField field(VoxelSelection(map, filter), max_distance);
+  ASSERT_GT(field.size()[0], 500);
+  std::size_t checked = 0;
+  std::size_t cut_off = 0;
+  forEachIn(field.box(), [&](const VoxelIndex& v) {
+    if ((v.x + 3 * v.y + 7 * v.z) % 50 != 0) return;
+    const double truth = nearestOf(map, 2, map.grid().center(v), max_distance);
+    ASSERT_NEAR(field.distance(v), truth, 1e-5);
+    ++checked;
+    cut_off += truth == max_distance ? 1 : 0;
+  });
+  EXPECT_GT(checked, 10000U);
+  EXPECT_LT(cut_off, checked / 2);
 }
 
 TEST(DistanceField, CountsObstaclesBeyondTheBox) {

@@ -15,6 +15,9 @@ namespace {
 
 constexpr std::int64_t kMaxVoxels = std::int64_t{1} << 26U;
 
+/// Voxels that are computed at a time, as DynamicEDT3D takes 28 bytes for each.
+constexpr std::int64_t kMaxTileVoxels = std::int64_t{1} << 21U;
+
 std::int64_t volume(const VoxelBox& box) {
   return (std::int64_t{box.max.x} - box.min.x + 1) * (std::int64_t{box.max.y} - box.min.y + 1) *
          (std::int64_t{box.max.z} - box.min.z + 1);
@@ -56,6 +59,26 @@ void requireAffordable(const VoxelBox& box) {
         "not fit into memory; choose a smaller --box or --max-distance");
 }
 
+/// Boxes that make up `box`, as large as they may be with `margin` around them. Each costs all of
+/// its margin, so it is always the longest side that is halved.
+void appendTiles(const VoxelBox& box, std::int32_t margin, std::vector<VoxelBox>& tiles) {
+  const VoxelIndex size{box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z};
+  const std::int32_t longest = std::max({size.x, size.y, size.z});
+  if (volume(grown(box, margin)) <= kMaxTileVoxels || longest < margin) {
+    tiles.push_back(box);
+    return;
+  }
+  const auto axis = size.x == longest   ? &VoxelIndex::x
+                    : size.y == longest ? &VoxelIndex::y
+                                        : &VoxelIndex::z;
+  VoxelBox first = box;
+  VoxelBox second = box;
+  first.max.*axis = box.min.*axis + longest / 2;
+  second.min.*axis = first.max.*axis + 1;
+  appendTiles(first, margin, tiles);
+  appendTiles(second, margin, tiles);
+}
+
 }  // namespace
 
 DistanceField::DistanceField(const VoxelSelection& voxels, double max_distance)
@@ -79,25 +102,38 @@ DistanceField::DistanceField(const VoxelSelection& voxels, double max_distance)
       states_[offsetOf(v)] = voxel.class_id == kFreeClass ? VoxelState::Free : VoxelState::Occupied;
   });
 
+  std::vector<VoxelIndex> occupied;
+  obstacles.forEachResampled([&](const VoxelIndex& v, const ExportedVoxel&) {
+    if (contains(around, v)) occupied.push_back(v);
+  });
+  distances_.resize(states_.size());
+  std::vector<VoxelBox> tiles;
+  appendTiles(box_, margin, tiles);
+  for (const VoxelBox& tile : tiles) measure(tile, margin, occupied);
+}
+
+void DistanceField::measure(const VoxelBox& tile, std::int32_t margin,
+                            const std::vector<VoxelIndex>& obstacles) {
+  const VoxelBox around = grown(tile, margin);
   // A voxel more, so that what is exactly at the maximum distance is not cut off.
   DynamicEDT3D distances((margin + 1) * (margin + 1));
   distances.initializeEmpty(around.max.x - around.min.x + 1, around.max.y - around.min.y + 1,
                             around.max.z - around.min.z + 1);
-  obstacles.forEachResampled([&](const VoxelIndex& v, const ExportedVoxel&) {
+  for (const VoxelIndex& v : obstacles) {
     if (contains(around, v))
       distances.occupyCell(v.x - around.min.x, v.y - around.min.y, v.z - around.min.z);
-  });
+  }
   constexpr bool kSquaredOnly = false;
   distances.update(kSquaredOnly);
 
-  distances_.reserve(states_.size());
-  const auto [width, height, depth] = size();
-  for (int z = 0; z < depth; ++z)
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const double squared = distances.getSQCellDistance(x + margin, y + margin, z + margin);
-        distances_.push_back(
-            static_cast<float>(std::min(max_distance, std::sqrt(squared) * resolution_)));
+  VoxelIndex v;
+  for (v.z = tile.min.z; v.z <= tile.max.z; ++v.z)
+    for (v.y = tile.min.y; v.y <= tile.max.y; ++v.y)
+      for (v.x = tile.min.x; v.x <= tile.max.x; ++v.x) {
+        const double squared =
+            distances.getSQCellDistance(v.x - around.min.x, v.y - around.min.y, v.z - around.min.z);
+        distances_[offsetOf(v)] =
+            static_cast<float>(std::min(max_distance_, std::sqrt(squared) * resolution_));
       }
 }
 

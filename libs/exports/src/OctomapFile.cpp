@@ -37,15 +37,29 @@ float logOddsOf(const ExportedVoxel& voxel) {
                                       : std::max(log_odds, 0.0F);
 }
 
-template <class Tree, class Paint>
-std::size_t fill(const VoxelSelection& voxels, Tree& tree, Paint&& paint) {
+/// Occupied or free alone. Equal leaves are merged as they come, so that few are in memory at a
+/// time.
+std::size_t fill(const VoxelSelection& voxels, octomap::OcTree& tree) {
+  std::size_t occupied = 0;
+  voxels.forEachResampled([&](const VoxelIndex& index, const ExportedVoxel& voxel) {
+    const bool free = voxel.class_id == kFreeClass;
+    tree.setNodeValue(keyOf(index),
+                      free ? tree.getClampingThresMinLog() : tree.getClampingThresMaxLog());
+    if (!free) ++occupied;
+  });
+  return occupied;
+}
+
+std::size_t fill(const VoxelSelection& voxels, const LabelSet& labels, octomap::ColorOcTree& tree) {
+  // As colours are set after the value, merging has to wait.
   constexpr bool kLazy = true;
   std::size_t occupied = 0;
   voxels.forEachResampled([&](const VoxelIndex& index, const ExportedVoxel& voxel) {
     const float log_odds =
         std::clamp(logOddsOf(voxel), tree.getClampingThresMinLog(), tree.getClampingThresMaxLog());
-    auto* leaf = tree.setNodeValue(keyOf(index), log_odds, kLazy);
-    paint(*leaf, voxel.class_id);
+    octomap::ColorOcTreeNode* leaf = tree.setNodeValue(keyOf(index), log_odds, kLazy);
+    const Color& color = labels.at(voxel.class_id).color;
+    leaf->setColor(color[0], color[1], color[2]);
     if (voxel.class_id != kFreeClass) ++occupied;
   });
   tree.updateInnerOccupancy();
@@ -91,9 +105,7 @@ std::size_t writeOctomap(const VoxelSelection& selection, const LabelSet& labels
   const VoxelSelection voxels = selection.withFreeVoxels(true);
   if (extension == ".bt") {
     octomap::OcTree tree(voxels.resolution());
-    const std::size_t occupied = fill(voxels, tree, [](octomap::OcTreeNode&, ClassId) {});
-    tree.toMaxLikelihood();
-    tree.prune();
+    const std::size_t occupied = fill(voxels, tree);
     writeStream(file, [&](std::ostream& out) -> std::ostream& {
       // OcTree::writeBinary() does the same, and prints to standard error.
       out << "# Octomap OcTree binary file\nid OcTree\nsize " << tree.size() << "\nres "
@@ -103,10 +115,7 @@ std::size_t writeOctomap(const VoxelSelection& selection, const LabelSet& labels
     return occupied;
   }
   octomap::ColorOcTree tree(voxels.resolution());
-  const std::size_t occupied = fill(voxels, tree, [&](octomap::ColorOcTreeNode& leaf, ClassId k) {
-    const Color& color = labels.at(k).color;
-    leaf.setColor(color[0], color[1], color[2]);
-  });
+  const std::size_t occupied = fill(voxels, labels, tree);
   pruneEqualLeaves(tree, tree.getRoot());
   writeStream(file, [&](std::ostream& out) { return tree.write(out); });
   return occupied;
