@@ -110,8 +110,9 @@ TEST_F(MapDefinition, keysOfTheMap) {
            "enableObservationLikelihood = false\n" + section("insertOpts") +
            "point_labels = intensity // comment\n" + "unlabelled_class = road # comment\n" +
            "scan_2d_class = wall\n" + section("likelihoodOpts") +
-           "decimation = 3\nmax_distance = 0.5\nsigma = 0.125\n" + section("renderOpts") +
-           "occupied_voxels = off\nfree_voxels = on\n");
+           "decimation = 3\nmax_distance = 0.5\nsigma = 0.125\nmethod = beam\n"
+           "semantic_weight = 2.5\nlabel_error = 0.25\n" +
+           section("renderOpts") + "occupied_voxels = off\nfree_voxels = on\n");
   EXPECT_THAT(definition.unknownKeys(), ElementsAre());
   const CSemanticContinuousMap map(definition);
   EXPECT_EQ(map.labels().name(), "sample");
@@ -123,6 +124,9 @@ TEST_F(MapDefinition, keysOfTheMap) {
   EXPECT_EQ(map.likelihoodOptions.decimation, 3);
   EXPECT_EQ(map.likelihoodOptions.max_distance, 0.5);
   EXPECT_EQ(map.likelihoodOptions.sigma, 0.125);
+  EXPECT_EQ(map.likelihoodOptions.method, LikelihoodMethod::Beam);
+  EXPECT_EQ(map.likelihoodOptions.semantic_weight, 2.5);
+  EXPECT_EQ(map.likelihoodOptions.label_error, 0.25);
   EXPECT_FALSE(map.renderingOptions.occupied_voxels);
   EXPECT_TRUE(map.renderingOptions.free_voxels);
 }
@@ -335,12 +339,10 @@ TEST(IniReference, listsEveryKeyWithItsDefault) {
     const std::string value = toString(field).empty() ? "none" : toString(field);
     EXPECT_THAT(text.str(), HasSubstr("| `" + key + "` | " + value + " |"));
   });
-  const CSemanticContinuousMap map;
-  const auto& likelihood = map.likelihoodOptions;
-  EXPECT_THAT(text.str(),
-              AllOf(HasSubstr("| `decimation` | " + toString(likelihood.decimation) + " |"),
-                    HasSubstr("| `max_distance` | " + toString(likelihood.max_distance) + " |"),
-                    HasSubstr("| `sigma` | " + toString(likelihood.sigma) + " |")));
+  const LikelihoodOptions likelihood;
+  visitLikelihoodOptions(likelihood, [&](const std::string& key, const auto& field, auto, auto) {
+    EXPECT_THAT(text.str(), HasSubstr("| `" + key + "` | " + toString(field) + " |"));
+  });
 }
 
 }  // namespace

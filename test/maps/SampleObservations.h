@@ -9,6 +9,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationRotatingScan.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <Eigen/Core>
@@ -72,6 +73,7 @@ inline mrpt::obs::CObservationPointCloud::Ptr roomCloud(float step = 0.1f) {
 inline CSemanticContinuousMap sampleMap(double resolution = 0.2) {
   Options options;
   options.resolution = resolution;
+  options.method = Method::SeeCsom;  // the walls of the room lie on borders of voxels
   CSemanticContinuousMap map(options, sampleLabels());
   map.insertionOptions.point_labels = PointLabels::ByIntensity;
   return map;
@@ -81,6 +83,35 @@ inline CSemanticContinuousMap roomMap() {
   CSemanticContinuousMap map = sampleMap();
   map.insertObservation(*roomCloud());
   return map;
+}
+
+/// What a scanner of one row sees from the middle of a round room; raw ids as intensities.
+inline mrpt::obs::CObservationRotatingScan::Ptr rotatingScan(double range = 3.0) {
+  auto observation = mrpt::obs::CObservationRotatingScan::Create();
+  observation->sensorLabel = "ring";
+  observation->rowCount = 1;
+  observation->columnCount = 360;
+  observation->rangeResolution = 0.01;
+  observation->startAzimuth = -M_PI;
+  observation->azimuthSpan = 2 * M_PI;
+  observation->rangeImage.setZero(1, 360);
+  observation->rangeImage.fill(static_cast<std::uint16_t>(range / 0.01));
+  observation->intensityImage.setZero(1, 360);
+  observation->intensityImage.fill(50);
+  return observation;
+}
+
+/// The room as a Velodyne scan without packets.
+inline mrpt::obs::CObservationVelodyneScan::Ptr velodyneRoom() {
+  auto scan = mrpt::obs::CObservationVelodyneScan::Create();
+  scan->sensorLabel = "velodyne";
+  for (const Eigen::Vector3f& p : roomPoints()) {
+    scan->point_cloud.x.push_back(p.x());
+    scan->point_cloud.y.push_back(p.y());
+    scan->point_cloud.z.push_back(p.z());
+    scan->point_cloud.intensity.push_back(50);
+  }
+  return scan;
 }
 
 /// A wall at 2 m depth seen by a camera of 8 x 6 pixels.

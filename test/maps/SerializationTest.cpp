@@ -111,6 +111,9 @@ CSemanticContinuousMap fullMap() {
   map.likelihoodOptions.decimation = 3;
   map.likelihoodOptions.max_distance = 0.75;
   map.likelihoodOptions.sigma = 0.125;
+  map.likelihoodOptions.method = LikelihoodMethod::Beam;
+  map.likelihoodOptions.semantic_weight = 1.75;
+  map.likelihoodOptions.label_error = 0.375;
   map.renderingOptions.occupied_voxels = false;
   map.renderingOptions.free_voxels = true;
   map.genericMapParams.enableSaveAs3DObject = false;
@@ -132,6 +135,9 @@ TEST(Serialization, carriesEverything) {
   EXPECT_EQ(copy.likelihoodOptions.decimation, 3);
   EXPECT_EQ(copy.likelihoodOptions.max_distance, 0.75);
   EXPECT_EQ(copy.likelihoodOptions.sigma, 0.125);
+  EXPECT_EQ(copy.likelihoodOptions.method, LikelihoodMethod::Beam);
+  EXPECT_EQ(copy.likelihoodOptions.semantic_weight, 1.75);
+  EXPECT_EQ(copy.likelihoodOptions.label_error, 0.375);
   EXPECT_FALSE(copy.renderingOptions.occupied_voxels);
   EXPECT_TRUE(copy.renderingOptions.free_voxels);
   EXPECT_FALSE(copy.genericMapParams.enableSaveAs3DObject);

@@ -123,7 +123,8 @@ CSemanticContinuousMap& CSemanticContinuousMap::operator=(const CSemanticContinu
   last_insertion_ = other.last_insertion_;
   meta_ = other.meta_;
   adapter_ = other.adapter_ ? other.adapter_->clone() : nullptr;
-  invalidatePoints();
+  observed_points_.invalidate();
+  invalidateCaches();
   return *this;
 }
 
@@ -158,7 +159,8 @@ void CSemanticContinuousMap::setContent(SemanticMap map, std::shared_ptr<const S
   statistics_.inserted = scans_.size();
   last_insertion_ = {};
   adapter_.reset();
-  invalidatePoints();
+  observed_points_.invalidate();
+  invalidateCaches();
 }
 
 std::string CSemanticContinuousMap::asString() const {
@@ -173,7 +175,7 @@ void CSemanticContinuousMap::saveMetricMapRepresentationToFile(const std::string
 }
 
 void CSemanticContinuousMap::auxParticleFilterCleanUp() {
-  invalidatePoints();
+  invalidateCaches();
 }
 
 void CSemanticContinuousMap::internal_clear() {
@@ -183,7 +185,7 @@ void CSemanticContinuousMap::internal_clear() {
   last_insertion_ = {};
   meta_.clear();
   adapter_.reset();
-  invalidatePoints();
+  invalidateCaches();
 }
 
 LastInsertion CSemanticContinuousMap::lastInsertion() const {
@@ -193,9 +195,10 @@ LastInsertion CSemanticContinuousMap::lastInsertion() const {
   return last_insertion_;
 }
 
-void CSemanticContinuousMap::invalidatePoints() {
+void CSemanticContinuousMap::invalidateCaches() {
   for (OccupiedPoints* points : {&occupied_points_, &points_for_2d_, &points_for_3d_})
     points->invalidate();
+  nearest_voxels_.invalidate();
 }
 
 LabelRules CSemanticContinuousMap::labelRules() const {
@@ -277,7 +280,7 @@ bool CSemanticContinuousMap::insertScan(const AdaptedScan& adapted) {
     return false;
   }
   ++statistics_.inserted;
-  invalidatePoints();
+  invalidateCaches();
   const Eigen::Vector3d& origin = adapted.scan.origin;
   scans_.push_back({adapted.timestamp,
                     adapted.sensor_label,

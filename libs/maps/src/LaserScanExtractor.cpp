@@ -17,6 +17,10 @@ class LaserScanExtractor : public PointExtractor {
     return dynamic_cast<const CObservation2DRangeScan*>(&observation) != nullptr;
   }
 
+  bool holdsPoints(const mrpt::obs::CObservation& observation) const override {
+    return dynamic_cast<const CObservation2DRangeScan&>(observation).getScanSize() > 0;
+  }
+
   SensorPoints extract(const mrpt::obs::CObservation& observation,
                        const LabelRules& rules) const override {
     const auto& scan = dynamic_cast<const CObservation2DRangeScan&>(observation);

@@ -39,15 +39,10 @@ void readInsertion(IniSection& section, CSemanticContinuousMap::TInsertionOption
   section.read("scan_2d_class", options.scan_2d_class);
 }
 
-void requirePositive(const std::string& key, double value) {
-  if (!(value > 0) || !std::isfinite(value))
-    throw OptionError(key + " = " + toString(value) + " must be finite and greater than 0");
-}
-
 void readLikelihood(IniSection& section, CSemanticContinuousMap::TLikelihoodOptions& options) {
-  section.read("decimation", options.decimation);
-  section.read("max_distance", options.max_distance);
-  section.read("sigma", options.sigma);
+  visitLikelihoodOptions(options, [&](const char* key, auto& field, const char*, const char*) {
+    section.read(key, field);
+  });
   try {
     options.validate();
   } catch (const OptionError& error) {
@@ -305,16 +300,10 @@ void CSemanticContinuousMap::TLikelihoodOptions::loadFromConfigFile(const CConfi
   readLikelihood(ini, *this);
 }
 
-void CSemanticContinuousMap::TLikelihoodOptions::validate() const {
-  requirePositive("decimation", decimation);
-  requirePositive("max_distance", max_distance);
-  requirePositive("sigma", sigma);
-}
-
 void CSemanticContinuousMap::TLikelihoodOptions::dumpToTextStream(std::ostream& out) const {
-  dump(out, "decimation", decimation);
-  dump(out, "max_distance", max_distance);
-  dump(out, "sigma", sigma);
+  visitLikelihoodOptions(*this, [&](const char* key, const auto& field, const char*, const char*) {
+    dump(out, key, toString(field));
+  });
 }
 
 void CSemanticContinuousMap::TRenderingOptions::loadFromConfigFile(const CConfigFileBase& source,

@@ -16,8 +16,8 @@
 namespace csom {
 namespace {
 
-/// 1: labels from cameras.
-constexpr std::uint8_t kVersion = 1;
+/// 1: labels from cameras. 2: options of the likelihood by name.
+constexpr std::uint8_t kVersion = 2;
 
 using Texts = std::map<std::string, std::string>;
 using Counts = std::map<std::string, std::size_t>;
@@ -102,6 +102,35 @@ LabelOptions readLabelOptions(ByteReader& in) {
   options.sources.resize(in.count(kSmallest));
   for (LabelSource& source : options.sources)
     visitLabelSource(source, [&](const char* key, auto& field) { parse(key, in.text(), field); });
+  options.validate();
+  return options;
+}
+
+/// By name, as above.
+void write(ByteWriter& out, const LikelihoodOptions& options) {
+  Texts texts;
+  visitLikelihoodOptions(options, [&](const char* key, const auto& field, const char*,
+                                      const char*) { texts[key] = toString(field); });
+  write(out, texts);
+}
+
+LikelihoodOptions readLikelihoodOptions(ByteReader& in, std::uint8_t version) {
+  LikelihoodOptions options;
+  if (version < 2) {
+    options.decimation = in.number<std::int32_t>();
+    options.max_distance = in.number<double>();
+    options.sigma = in.number<double>();
+  } else {
+    Texts texts = readTexts(in);
+    visitLikelihoodOptions(options, [&](const char* key, auto& field, const char*, const char*) {
+      const auto text = texts.find(key);
+      if (text == texts.end()) return;
+      parse(key, text->second, field);
+      texts.erase(text);
+    });
+    if (!texts.empty())
+      throw std::runtime_error("serialised map: unknown option '" + texts.begin()->first + "'");
+  }
   options.validate();
   return options;
 }
@@ -250,9 +279,7 @@ void CSemanticContinuousMap::serializeTo(mrpt::serialization::CArchive& out) con
   block.text(toString(insertionOptions.point_labels));
   block.text(insertionOptions.unlabelled_class);
   block.text(insertionOptions.scan_2d_class);
-  block.number(static_cast<std::int32_t>(likelihoodOptions.decimation));
-  block.number(likelihoodOptions.max_distance);
-  block.number(likelihoodOptions.sigma);
+  write(block, static_cast<const LikelihoodOptions&>(likelihoodOptions));
   write(block, labelOptions);
   write(block, map_.options());
   block.text(labels_->yaml());
@@ -287,11 +314,7 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
   parse("point_labels", block.text(), insertion.point_labels);
   insertion.unlabelled_class = block.text();
   insertion.scan_2d_class = block.text();
-  TLikelihoodOptions likelihood;
-  likelihood.decimation = block.number<std::int32_t>();
-  likelihood.max_distance = block.number<double>();
-  likelihood.sigma = block.number<double>();
-  likelihood.validate();
+  const LikelihoodOptions likelihood = readLikelihoodOptions(block, version);
   LabelOptions label_options;
   if (version >= 1) label_options = readLabelOptions(block);
   SemanticMap map(readOptions(block));
@@ -315,7 +338,7 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
   statistics_ = std::move(statistics);
   genericMapParams = generic;
   insertionOptions = insertion;
-  likelihoodOptions = likelihood;
+  static_cast<LikelihoodOptions&>(likelihoodOptions) = likelihood;
   renderingOptions = rendering;
   labelOptions = std::move(label_options);
   adapter_ = std::move(adapter);

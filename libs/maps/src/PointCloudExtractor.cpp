@@ -78,6 +78,11 @@ class PointCloudExtractor : public PointExtractor {
     return dynamic_cast<const CObservationPointCloud*>(&observation) != nullptr;
   }
 
+  bool holdsPoints(const mrpt::obs::CObservation& observation) const override {
+    const auto& scan = dynamic_cast<const CObservationPointCloud&>(observation);
+    return scan.isExternallyStored() || (scan.pointcloud && !scan.pointcloud->empty());
+  }
+
   SensorPoints extract(const mrpt::obs::CObservation& observation,
                        const LabelRules& rules) const override {
     const auto& scan = dynamic_cast<const CObservationPointCloud&>(observation);

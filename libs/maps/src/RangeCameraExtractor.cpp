@@ -86,6 +86,11 @@ class RangeCameraExtractor : public PointExtractor {
     return dynamic_cast<const CObservation3DRangeScan*>(&observation) != nullptr;
   }
 
+  bool holdsPoints(const mrpt::obs::CObservation& observation) const override {
+    const auto& scan = dynamic_cast<const CObservation3DRangeScan&>(observation);
+    return scan.hasRangeImage || scan.hasPoints3D;
+  }
+
   SensorPoints extract(const mrpt::obs::CObservation& observation,
                        const LabelRules& rules) const override {
     const auto& scan = dynamic_cast<const CObservation3DRangeScan&>(observation);

@@ -44,6 +44,15 @@ std::vector<Elevation> elevationsOf(const CObservationRotatingScan& scan) {
                            " rows are not known; VLP-16, HDL-32E and single rows are");
 }
 
+bool knowsElevations(const CObservationRotatingScan& scan) {
+  try {
+    elevationsOf(scan);
+  } catch (const std::exception&) {
+    return false;
+  }
+  return true;
+}
+
 bool columnsEmptyFrom(const CObservationRotatingScan& scan, int first) {
   for (int row = 0; row < scan.rangeImage.rows(); ++row) {
     for (int column = first; column < scan.rangeImage.cols(); ++column) {
@@ -73,6 +82,11 @@ class RotatingScanExtractor : public PointExtractor {
  public:
   bool accepts(const mrpt::obs::CObservation& observation) const override {
     return dynamic_cast<const CObservationRotatingScan*>(&observation) != nullptr;
+  }
+
+  bool holdsPoints(const mrpt::obs::CObservation& observation) const override {
+    const auto& scan = dynamic_cast<const CObservationRotatingScan&>(observation);
+    return scan.rangeImage.rows() > 0 && scan.rangeImage.cols() > 0 && knowsElevations(scan);
   }
 
   SensorPoints extract(const mrpt::obs::CObservation& observation,

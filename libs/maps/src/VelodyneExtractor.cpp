@@ -35,6 +35,11 @@ class VelodyneExtractor : public PointExtractor {
     return dynamic_cast<const CObservationVelodyneScan*>(&observation) != nullptr;
   }
 
+  bool holdsPoints(const mrpt::obs::CObservation& observation) const override {
+    const auto& scan = dynamic_cast<const CObservationVelodyneScan&>(observation);
+    return !scan.scan_packets.empty() || scan.point_cloud.size() > 0;
+  }
+
   SensorPoints extract(const mrpt::obs::CObservation& observation,
                        const LabelRules& rules) const override {
     const auto& scan = dynamic_cast<const CObservationVelodyneScan&>(observation);

@@ -8,7 +8,10 @@
 #include <csom/maps/CameraLabelledAdapter.h>
 #include <csom/maps/LabelOptions.h>
 #include <csom/maps/LabelRules.h>
+#include <csom/maps/LikelihoodOptions.h>
+#include <csom/maps/NearestVoxelField.h>
 #include <csom/maps/ObservationAdapter.h>
+#include <csom/maps/ObservedPoints.h>
 #include <csom/maps/OccupiedPoints.h>
 #include <csom/maps/SharedLabels.h>
 #include <mrpt/config/CConfigFileBase.h>
@@ -80,15 +83,7 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
     void dumpToTextStream(std::ostream& out) const override;
   };
 
-  /// Likelihood field: log p = −½ · mean over the points of min(d, max_distance)²/sigma², d being
-  /// the distance to the nearest occupied voxel.
-  struct TLikelihoodOptions : public mrpt::config::CLoadableOptions {
-    int decimation = 10;        ///< uses one point out of so many
-    double max_distance = 1.0;  ///< [m]
-    double sigma = 0.25;        ///< [m]
-
-    /// Throws OptionError unless all three are finite and greater than 0.
-    void validate() const;
+  struct TLikelihoodOptions : public mrpt::config::CLoadableOptions, public LikelihoodOptions {
     void loadFromConfigFile(const mrpt::config::CConfigFileBase& source,
                             const std::string& section) override;
     void dumpToTextStream(std::ostream& out) const override;
@@ -210,7 +205,8 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
 
   LabelRules labelRules() const;
   ObservationAdapter& adapter();
-  void invalidatePoints();
+  /// To be called when voxels change.
+  void invalidateCaches();
   /// Replaces all but the MRPT-side options. Throws before it changes anything.
   void setContent(SemanticMap map, std::shared_ptr<const SharedLabels> labels,
                   std::vector<ScanRecord> scans, std::map<std::string, std::string> meta);
@@ -231,6 +227,8 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   // MRPT's points maps fail when they are searched in 2-D and then in 3-D: one for each.
   OccupiedPoints points_for_2d_;
   OccupiedPoints points_for_3d_;
+  NearestVoxelField nearest_voxels_;     ///< of the likelihood
+  ObservedPointsCache observed_points_;  ///< of the likelihood
 };
 
 }  // namespace csom

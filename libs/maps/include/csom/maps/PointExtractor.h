@@ -33,6 +33,9 @@ class PointExtractor {
   virtual ~PointExtractor() = default;
   /// True for observations of the kind that it reads.
   virtual bool accepts(const mrpt::obs::CObservation& observation) const = 0;
+  /// Requires accepts(observation). False if it is plain, without reading files, that extract()
+  /// would find no point or throw.
+  virtual bool holdsPoints(const mrpt::obs::CObservation& observation) const = 0;
   /// Requires accepts(observation). Throws std::exception if the observation is damaged.
   virtual SensorPoints extract(const mrpt::obs::CObservation& observation,
                                const LabelRules& rules) const = 0;
