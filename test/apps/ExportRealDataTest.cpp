@@ -27,14 +27,23 @@ TEST(ExportRealData, ConferenceRoomReadsBackTheSame) {
                  folder / "room.rawlog"})
                 .exit_code,
             0);
-  ASSERT_EQ(run({"map", folder / "room.rawlog", "-c",
-                 std::string(CSOM_SOURCE_DIR) + "/config/stanford.ini", "-o", folder / "out",
-                 "--no-html"})
-                .exit_code,
-            0);
+  const auto mapWith = [&](const std::string& method) {
+    const std::string key = "\nmethod = ";
+    std::string config = readBytes(std::string(CSOM_SOURCE_DIR) + "/config/stanford.ini");
+    const std::size_t value = config.find(key) + key.size();
+    ASSERT_GT(value, key.size());
+    config.replace(value, config.find('\n', value) - value, method);
+    writeBytes(folder / "room.ini", config);
+    ASSERT_EQ(run({"map", folder / "room.rawlog", "-c", folder / "room.ini", "-o", folder / "out",
+                   "--no-html"})
+                  .exit_code,
+              0);
+  };
+  mapWith("surface-csom");
   expectAllFormatsReadBack(folder.path(), folder / "out/map.csom");
 
-  // Its scans do not say where they were seen from, so the map has no free space.
+  // Its scans do not say where they were seen from, so this method finds no free space.
+  mapWith("see-csom");
   const ProgramResult nav2 = run({"export", folder / "out/map.csom", "--to", "nav2",
                                   "--obstacle-band", "0.1,1", "-o", folder / "room.yaml"});
   EXPECT_EQ(nav2.exit_code, 2);

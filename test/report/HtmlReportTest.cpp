@@ -118,14 +118,16 @@ classes:
 TEST(HtmlReportTest, SaysInWordsWhatHappened) {
   const std::string page = samplePage();
   EXPECT_THAT(page, HasSubstr("<h1>Semantic map of my drive.rawlog</h1>"));
-  EXPECT_THAT(page, HasSubstr("2 observations with 2,000 points went into the map in 12.3 s."));
+  EXPECT_THAT(page, HasSubstr("2 observations with 2,000 points went into the map in 12.3 s, "
+                              "0.162 observations a second."));
   EXPECT_THAT(page, HasSubstr("50 points (2.5 %) did not go into the map"));
   EXPECT_THAT(page, HasSubstr("50 were farther from the sensor than <code>max_range</code>"));
   EXPECT_THAT(page, HasSubstr("5 observations of 7 did not reach the map"));
   EXPECT_THAT(page, HasSubstr("5 × <code>CObservationGPS</code>: no range data"));
   EXPECT_THAT(page, HasSubstr("unknown key &#39;resolutoin&#39;"));
   EXPECT_THAT(page, HasSubstr("csom map &#39;my drive.rawlog&#39; -o out"));
-  EXPECT_THAT(page, HasSubstr("robot-pose:GT"));
+  EXPECT_THAT(page, HasSubstr(std::string("Method: ") + toString(Options{}.method) +
+                              ". Poses: robot-pose:GT."));
 }
 
 TEST(HtmlReportTest, ListsThePresentClassesAndNamesTheAbsentOnes) {

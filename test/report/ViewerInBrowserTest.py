@@ -45,14 +45,14 @@ def csom(*arguments):
     return done.stdout
 
 
-def map_campus(folder, resolution=None):
-    """Maps the drive of the repository; returns the folder with the report."""
-    config = SOURCE / "config/campus.ini"
-    if resolution is not None:
-        text, changes = re.subn(r"(?m)^resolution *=.*$", f"resolution = {resolution}", config.read_text())
-        assert changes == 1
-        config = folder / "fine.ini"
-        config.write_text(text)
+def map_campus(folder, options):
+    """Maps the drive of the repository with these keys of its ini changed; returns the folder with the report."""
+    text = (SOURCE / "config/campus.ini").read_text()
+    for key, value in options.items():
+        text, changes = re.subn(rf"(?m)^{key} *=.*$", f"{key} = {value}", text)
+        assert changes == 1, key
+    config = folder / "campus.ini"
+    config.write_text(text)
     csom("map", SOURCE / "rawlogs/campus.rawlog", "-c", config, "-o", folder / "out")
     return folder / "out"
 
@@ -64,7 +64,7 @@ def share_that_differs(a, b):
 
 
 class BrowserTest(unittest.TestCase):
-    resolution = None
+    options = {}
     webgl = True
 
     @classmethod
@@ -73,7 +73,7 @@ class BrowserTest(unittest.TestCase):
         cls.scratch = tempfile.TemporaryDirectory(prefix="csom-viewer-")
         cls.addClassCleanup(cls.scratch.cleanup)
         folder = pathlib.Path(cls.scratch.name)
-        cls.out = map_campus(folder, cls.resolution)
+        cls.out = map_campus(folder, cls.options)
         cls.browser = start_browser(folder / "profile", cls.webgl)
         cls.addClassCleanup(cls.browser.quit)
 
@@ -329,7 +329,7 @@ class ViewerTest(BrowserTest):
 
 
 class MillionVoxelsTest(BrowserTest):
-    resolution = 0.1
+    options = {"resolution": 0.1, "method": "see-csom"}
 
     def test_is_small_and_soon_there(self):
         before = self.picture("million-voxels")

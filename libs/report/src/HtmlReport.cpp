@@ -43,12 +43,23 @@ std::size_t refusedTotal(const RunRecord& record) {
   return count;
 }
 
+/// "Method: see-csom. ", or nothing for a record that does not say.
+std::string methodInWords(const RunRecord& record) {
+  for (const Parameter& parameter : record.parameters)
+    if (parameter.name == "method") return "Method: " + escapeHtml(toText(parameter)) + ". ";
+  return "";
+}
+
 /// What happened, in two or three sentences.
 void writeSummary(std::ostream& page, const RunRecord& record, const MapFigures& figures) {
   const std::size_t points = totals(record).points;
   page << "<p class=\"lead\">" << formatCount(record.scans.size(), "observation") << " with "
        << formatCount(points, "point") << " went into the map in "
-       << formatDuration(record.wall_seconds) << ". ";
+       << formatDuration(record.wall_seconds);
+  if (record.wall_seconds > 0)
+    page << ", " << formatNumber(static_cast<double>(record.scans.size()) / record.wall_seconds)
+         << " observations a second";
+  page << ". ";
   if (figures.known_voxels == 0) {
     page << "The map is empty: no point was accepted. The section “What was left out” says why.";
   } else {
@@ -57,9 +68,10 @@ void writeSummary(std::ostream& page, const RunRecord& record, const MapFigures&
          << formatCount(figures.occupied_voxels, "voxel") << " are occupied and "
          << formatCount(figures.free_voxels) << " are known to be free.";
   }
-  page << "</p>\n<p class=\"soft\">Poses: " << escapeHtml(record.pose_source) << ". "
-       << motionInWords(record) << "Label set: " << escapeHtml(record.label_set)
-       << ". Made by csom " << escapeHtml(record.program_version) << ".</p>\n";
+  page << "</p>\n<p class=\"soft\">" << methodInWords(record)
+       << "Poses: " << escapeHtml(record.pose_source) << ". " << motionInWords(record)
+       << "Label set: " << escapeHtml(record.label_set) << ". Made by csom "
+       << escapeHtml(record.program_version) << ".</p>\n";
 }
 
 void writeFigure(std::ostream& page, const std::string& name, const std::string& value) {
