@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the map known to MRPT when the library is loaded.
+// Makes the maps known to MRPT when the library is loaded.
 #include <csom/maps/CSemanticContinuousMap.h>
+#include <csom/maps/CSemanticPointsMap.h>
 #include <mrpt/core/initializer.h>
 #include <mrpt/maps/TMetricMapTypesRegistry.h>
 
@@ -9,9 +10,14 @@
 MAP_DEFINITION_REGISTER("csom::CSemanticContinuousMap,CSemanticContinuousMap,semanticContinuousMap",
                         csom::CSemanticContinuousMap)
 
+MAP_DEFINITION_REGISTER("csom::CSemanticPointsMap,CSemanticPointsMap,semanticPointsMap",
+                        csom::CSemanticPointsMap)
+
 IMPLEMENTS_SERIALIZABLE(CSemanticContinuousMap, mrpt::maps::CMetricMap, csom)
+IMPLEMENTS_SERIALIZABLE(CSemanticPointsMap, mrpt::maps::CSimplePointsMap, csom)
 
 // De-serialising looks the class up by its name.
-MRPT_INITIALIZER(registerSemanticContinuousMap) {
+MRPT_INITIALIZER(registerSemanticMaps) {
   mrpt::rtti::registerClass(CLASS_ID(csom::CSemanticContinuousMap));
+  mrpt::rtti::registerClass(CLASS_ID(csom::CSemanticPointsMap));
 }
