@@ -46,6 +46,9 @@ void printAsText(const PointScore& score, const LabelSet& labels) {
   std::printf("mIoU                  %6.2f %%  over the classes of the %zu points\n",
               percent(score.meanIou()), score.points());
   std::printf("accuracy              %6.2f %%\n", percent(score.accuracy()));
+  std::printf("                                if a point in a voxel held to be free is wrong:\n");
+  std::printf("                                mIoU %.2f %%, accuracy %.2f %%\n",
+              percent(score.occupiedMeanIou()), percent(score.occupiedAccuracy()));
   std::printf("coverage              %6.2f %%  of the points lie in a known voxel; over these\n",
               percent(score.coverage()));
   std::printf("                                mIoU %.2f %%, accuracy %.2f %%\n",

@@ -77,8 +77,15 @@ TEST_F(EvalTest, RocHasAreaAndCurve) {
 TEST_F(EvalTest, RocNeedsATruthThatKnowsFreeVoxels) {
   test::writeBytes(folder_ / "1.pcd", test::pcdFile("0.01 0.01 0.01 1\n", 1));
   ASSERT_EQ(csom({"import", "pcd", folder_ / "1.pcd", "-o", folder_ / "p.rawlog"}).exit_code, 0);
-  ASSERT_EQ(csom({"map", folder_ / "p.rawlog", "-c", CSOM_SOURCE_DIR "/config/stanford.ini", "-o",
-                  folder_ / "out", "--no-html"})
+  // A method that says nothing about what lies beside surfaces.
+  test::writeBytes(folder_ / "counts.ini",
+                   "[MappingApplication]\nsemanticContinuousMap_count = 1\n"
+                   "[MappingApplication_semanticContinuousMap_00_creationOpts]\n"
+                   "label_set = stanford\nmethod = s-csm\n"
+                   "[MappingApplication_semanticContinuousMap_00_insertOpts]\n"
+                   "point_labels = intensity\n");
+  ASSERT_EQ(csom({"map", folder_ / "p.rawlog", "-c", folder_ / "counts.ini", "-o", folder_ / "out",
+                  "--no-html"})
                 .exit_code,
             0);
   expectFailure(csom({"eval", "roc", "--map", map(), "--truth", map()}), 1, "knows no free voxels");

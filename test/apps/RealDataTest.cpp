@@ -105,7 +105,7 @@ TEST_F(RealData, SemanticKittiMapBeatsItsInput) {
       ++points;
       const auto voxel = document.map.at(world * scan.points[k].cast<double>());
       covered += voxel.known() ? 1 : 0;
-      map_right += voxel.known() && voxel.mostLikelyClass() == right.id ? 1 : 0;
+      map_right += voxel.surfaceClass() == right.id ? 1 : 0;
       input_right += document.labels.classOfRaw(input[k]) == right ? 1 : 0;
     }
   }

@@ -23,6 +23,7 @@ TEST(ContextEntropy, DefaultsMeanObservedOrTwoFaces) {
 
 TEST(ContextEntropy, FilledBlocksFollowTheRule) {
   Options options;
+  options.method = Method::SeeCsom;
   // Two observed blocks two apart along x share the neighbour between them: it alone is added.
   const std::vector<BlockIndex> observed{{-1, 0, 0}, {1, 0, 0}};
   const auto filled = filledBlocks(observed, options);

@@ -56,10 +56,11 @@ class NaiveSurfaceOracle {
     bool undecided = false;
     double length = 0;
     double half_thickness = 0;
+    double own_side = 0;
     double density = 1;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
 
-    double reach() const { return std::max(length + half_thickness, 0.87); }
+    double reach() const { return std::max(length + own_side, 0.87); }
   };
 
   static double kernel(double t) {
@@ -126,6 +127,10 @@ class NaiveSurfaceOracle {
     s.plane = true;
     s.normal = solver.eigenvectors().col(0);
     s.half_thickness = o_.surface_thickness * s.normal.lpNorm<1>() / 2;
+    const Eigen::Vector3d& at = points_[p].xyz;
+    const Eigen::Vector3d center = at.array().floor() + 0.5;
+    if (s.normal.dot(center - at) < 0) s.normal = -s.normal;
+    s.own_side = std::max(s.half_thickness, s.normal.dot(center - at) + 1e-4);
     const double breadth = std::sqrt(l[1]) - std::sqrt(std::max(0.0, l[0]));
     // Hits on a line have no normal that single precision could tell.
     s.undecided =
@@ -173,16 +178,17 @@ class NaiveSurfaceOracle {
         free += kernel(d.norm() / s.length);
         continue;
       }
-      const double off = s.plane ? std::abs(s.normal.dot(d)) : 0;
+      const double off = s.plane ? s.normal.dot(d) : 0;
       const double along = std::sqrt(std::max(0.0, d.squaredNorm() - off * off));
       const double mass = kernel(along / s.length);
       if (s.plane && mass > 1e-6)
-        undecided = undecided || close(off, s.half_thickness, 1e-3) ||
-                    close(off, s.half_thickness + 0.5, 1e-3);
+        undecided = undecided || close(off, s.own_side, 5e-5) ||
+                    close(off, -s.half_thickness, 1e-3) ||
+                    close(std::abs(off), s.half_thickness + 0.5, 1e-3);
       const double hit = d.lpNorm<Eigen::Infinity>() < 0.5 ? o_.surface_hit_weight : 0;
       undecided = undecided || close(d.lpNorm<Eigen::Infinity>(), 0.5, 1e-4);
-      if (!s.plane || off <= s.half_thickness) votes += mass;
-      if (!s.plane || off <= s.half_thickness + 0.5) {
+      if (!s.plane || (-s.half_thickness <= off && off <= s.own_side)) votes += mass;
+      if (!s.plane || std::abs(off) <= s.half_thickness + 0.5) {
         support += mass;
         dense += mass * s.density;
       }

@@ -61,7 +61,6 @@ TEST_P(Oracle, AgreesWithinOneQuantum) {
   }
   EXPECT_GT(compared, 100000U);
   EXPECT_LT(undecided, compared / 50) << compared;
-  std::printf("%zu %zu\n", compared, undecided);
   EXPECT_GT(filled_cases, kRandomCases * 9 / 10);
 }
 
@@ -104,9 +103,24 @@ TEST(OracleDensePoint, AMillionPointsAtOnePlaceSumUp) {
   Scan scan;
   scan.points.assign(1000000, Eigen::Vector3f(0.25F, 0.25F, 0.25F));
   scan.labels.assign(scan.points.size(), 1);
+  options.method = Method::SeeCsom;
   SemanticMap map(options);
   map.insert(scan);
   EXPECT_NEAR(map.voxel({0, 0, 0}).evidence(1), 1e6, 10.0);
+}
+
+TEST(OracleDensePoint, HitsAtOnePlaceAreTheirOwnNeighbours) {
+  Options options;
+  options.number_of_classes = 2;
+  options.resolution = 0.5;
+  Scan scan;
+  scan.points.assign(10000, Eigen::Vector3f(0.25F, 0.25F, 0.25F));
+  scan.labels.assign(scan.points.size(), 1);
+  SemanticMap map(options);
+  map.insert(scan);
+  // The kernel of each is 1 at the centre of the voxel, and it lies in the voxel.
+  EXPECT_NEAR(map.voxel({0, 0, 0}).evidence(1), 1e4 * (1 + options.surface_hit_weight), 10.0);
+  EXPECT_EQ(map.voxel({0, 0, 0}).evidence(0), 0);
 }
 
 }  // namespace

@@ -167,6 +167,7 @@ TEST(ScanPreparation, MoreFreeSamplesThanMemoryAreRefused) {
 TEST(ScanPreparation, AScanMayReachToItsLimitOnEveryAxis) {
   // The widest scan that is accepted: its keys must not overflow, its blocks stay in order.
   Options options;
+  options.method = Method::SeeCsom;
   options.resolution = 0.25;
   options.block_depth = 1;
   Scan scan;

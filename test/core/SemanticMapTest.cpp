@@ -70,6 +70,7 @@ TEST(SemanticMap, FreeSpaceOfBothKindsLiesBetweenSensorAndSurface) {
 
 TEST(SemanticMap, AScanThatFillsNothingLeavesTheMapEmpty) {
   Options options = cornerOptions();
+  options.method = Method::SeeCsom;
   options.context_threshold = 1;  // no block reaches it
   SemanticMap map(options);
   const ScanReport report = map.insert(corner());

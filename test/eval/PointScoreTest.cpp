@@ -6,7 +6,7 @@ namespace csom {
 namespace {
 
 VoxelEstimate estimate(ClassId class_id, const std::vector<double>& probabilities) {
-  return {true, 1 - probabilities[0], class_id, probabilities};
+  return {true, 1 - probabilities[0], class_id, probabilities, class_id};
 }
 
 TEST(PointScore, UnknownAndFreeAreNeverRight) {
@@ -25,6 +25,17 @@ TEST(PointScore, UnknownAndFreeAreNeverRight) {
   EXPECT_EQ(score.calibration().count(), 4U);
   EXPECT_DOUBLE_EQ(score.calibration().brier(),
                    (0.01 + 0.01 + 0.75 * 0.75 * 2 + 0 + 0.36 + 0.36) / 4);
+}
+
+TEST(PointScore, AVoxelThatIsHeldToBeFreeMayKnowItsSurface) {
+  PointScore score(3);
+  VoxelEstimate voxel = estimate(0, {0.6, 0, 0.4});
+  voxel.surface_class = 2;
+  score.add(2, voxel);
+  score.add(1, voxel);
+  EXPECT_DOUBLE_EQ(score.accuracy(), 0.5);
+  EXPECT_DOUBLE_EQ(score.coveredAccuracy(), 0.5);
+  EXPECT_DOUBLE_EQ(score.occupiedAccuracy(), 0);
 }
 
 TEST(PointScore, OfLabelsWithoutAMap) {

@@ -42,6 +42,7 @@ inline LabelSet sampleLabels() {
 inline SemanticMap sampleMap() {
   Options options;
   options.number_of_classes = 3;
+  options.method = Method::SeeCsom;
   options.resolution = 0.25;
   options.free_space = FreeSpace::Sampled;
   SemanticMap map(options);

@@ -28,6 +28,18 @@ ClassId DirichletVoxel::mostLikelyClass() const {
   return classes_[std::max_element(counts_, counts_ + size_) - counts_];
 }
 
+ClassId DirichletVoxel::surfaceClass() const {
+  std::uint64_t best_count = 0;
+  ClassId best = unlabelled_ != 0 && count(unlabelled_) > 0 ? unlabelled_ : kFreeClass;
+  for (int i = 0; i < size_; ++i) {
+    if (classes_[i] == kFreeClass || classes_[i] == unlabelled_ || counts_[i] <= best_count)
+      continue;
+    best_count = counts_[i];
+    best = classes_[i];
+  }
+  return best;
+}
+
 ClassId DirichletVoxel::mostLikelyLabel() const {
   std::uint64_t best_count = 0;
   ClassId best = unlabelled_;

@@ -34,6 +34,8 @@ constexpr float kCovarianceReach = 2.5F;
 constexpr float kFlat = 0.5F;
 /// (√λ1 − √λ0)/√λ2 from which hits cover a plane to all sides rather than line up on it.
 constexpr float kCovered = 0.5F;
+/// By so much a plane is thicker than the way to the centre that it must reach [voxels].
+constexpr float kCenterRounding = 1e-4F;
 /// Neighbouring voxels must hear of each other's hits, however dense those are.
 constexpr double kLeastSpacing = 1.1;
 constexpr double kScatteredReach = 0.85;
@@ -46,6 +48,7 @@ constexpr double kLongestKernel = 24;
 /// hit before. Both change the time alone.
 constexpr float kFirstRadius = 2;
 constexpr float kGuess = 1.2F;
+constexpr float kLeastGuess = 0.5F;
 /// Of a row of blocks so many points are looked at: a million at one place cost no more than a
 /// wall.
 constexpr std::uint32_t kMostInRow = 256;
@@ -196,15 +199,24 @@ class SurfaceSearch {
       }
       if (nearest.complete() || radius == radius_) break;
     }
-    scratch.radius = nearest.complete()
-                         ? std::min(kGuess * std::sqrt(nearest.limitSquared()), radius_)
-                         : radius_;
+    scratch.radius = nearest.complete() ? std::clamp(kGuess * std::sqrt(nearest.limitSquared()),
+                                                     kLeastGuess, radius_)
+                                        : radius_;
   }
 
   /// From one point to another [voxels].
   Eigen::Vector3f offset(std::uint32_t to, std::uint32_t from) const {
     return {difference(points_.x, to, from), difference(points_.y, to, from),
             difference(points_.z, to, from)};
+  }
+
+  /// From a hit to the centre of the voxel that it lies in [voxels].
+  Eigen::Vector3f toVoxelCenter(std::uint32_t p) const {
+    const auto along = [](detail::FixedPoint coordinate) {
+      const detail::FixedPoint within = coordinate % detail::kFixedPointVoxel;
+      return 0.5F - static_cast<float>(within) / detail::kFixedPointVoxel;
+    };
+    return {along(points_.x[p]), along(points_.y[p]), along(points_.z[p])};
   }
 
   static float difference(const std::vector<detail::FixedPoint>& axis, std::uint32_t a,
@@ -267,9 +279,12 @@ class SurfaceSearch {
         continue;
       }
       surface.shape = Shape::Plane;
-      surface.normal = normal;
+      const float towards_center = normal.dot(toVoxelCenter(waiting.point[lane]));
+      surface.normal = towards_center < 0 ? Eigen::Vector3f(-normal) : normal;
       surface.half_thickness =
           static_cast<float>(options_.surface_thickness) * normal.lpNorm<1>() / 2;
+      surface.half_thickness_of_own_side =
+          std::max(surface.half_thickness, std::abs(towards_center) + kCenterRounding);
       const bool covered =
           std::sqrt(variance(1)) - std::sqrt(variance(0)) >= kCovered * std::sqrt(variance(2));
       setLength(waiting.spacing[lane], covered ? plane_spacing_limit_ : spacing_limit_, surface);

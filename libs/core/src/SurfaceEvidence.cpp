@@ -64,7 +64,8 @@ CSOM_INLINE void addPlane(const LocalSurface& s, float px, float py, float pz, R
       const Lanes mass = t < 1.0F ? sparseKernel(t) : Lanes{};
       const Lanes off = along_normal > 0.0F ? along_normal : -along_normal;
       const auto row = static_cast<std::size_t>(z * kChunkSide + y);
-      votes[row].mass += off <= s.half_thickness ? mass : Lanes{};
+      const Lanes vote = along_normal <= s.half_thickness_of_own_side ? mass : Lanes{};
+      votes[row].mass += along_normal >= -s.half_thickness ? vote : Lanes{};
       const Lanes near = off <= shell ? mass : Lanes{};
       support[row].mass += near;
       dense[row].mass += near * s.density;

@@ -8,7 +8,7 @@ VoxelEstimate CsomMapper::at(const Eigen::Vector3d& center) const {
   if (!voxel.known()) return {};
   const bool occupied = voxel.state() == VoxelState::Occupied;
   return {true, voxel.occupancy(), occupied ? voxel.mostLikelyClass() : kFreeClass,
-          voxel.probabilities()};
+          voxel.probabilities(), voxel.surfaceClass()};
 }
 
 }  // namespace csom

@@ -104,6 +104,8 @@ Json toJson(const PointScore& score, const LabelSet& labels) {
   Json json;
   json["miou_points"] = score.meanIou();
   json["accuracy_points"] = score.accuracy();
+  json["miou_points_occupied"] = score.occupiedMeanIou();
+  json["accuracy_points_occupied"] = score.occupiedAccuracy();
   json["miou_points_covered"] = score.coveredMeanIou();
   json["accuracy_points_covered"] = score.coveredAccuracy();
   json["coverage"] = score.coverage();

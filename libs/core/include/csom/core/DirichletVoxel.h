@@ -49,6 +49,10 @@ class DirichletVoxel {
   /// without a label are a class of their own, their evidence counts for the best other occupied
   /// class, so that this one is returned although its own probability may be lower.
   ClassId mostLikelyClass() const;
+  /// The most likely class of a surface, should there be one in the voxel: of the occupied classes
+  /// that with the most evidence, even where the voxel is held to be free. kFreeClass if no
+  /// occupied class has any.
+  ClassId surfaceClass() const;
 
   /// λ^k of one class; 1/K everywhere in an unknown voxel.
   double probability(ClassId k) const;

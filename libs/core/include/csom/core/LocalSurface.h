@@ -31,13 +31,16 @@ struct LocalSurface {
   float length = 0;
   /// min(1, (1.3·max(ds, r)/s)²): how much it says that no other hit is near.
   float density = 0;
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< of a plane; unit length, either sign
-  /// A plane passes through a voxel if its centre is nearer to the plane than
-  /// h = `surface_thickness`·(|n_x|+|n_y|+|n_z|)/2; 0 for all others.
+  /// n of a plane; unit length, towards the centre c of the voxel that the hit lies in.
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  /// A plane passes through a voxel with the centre v if −h ≤ n·(v − p) ≤ max(h, n·(c − p)), with
+  /// h = `surface_thickness`·(|n_x|+|n_y|+|n_z|)/2; 0 for all others. So a plane on the border of
+  /// two voxels passes through that with the hit.
   float half_thickness = 0;
+  float half_thickness_of_own_side = 0;  ///< max(h, n·(c − p))
 
   /// All voxels that a hit votes for have their centres nearer than this, its own included.
-  float reach() const { return std::max(length + half_thickness, kHalfVoxelDiagonal); }
+  float reach() const { return std::max(length + half_thickness_of_own_side, kHalfVoxelDiagonal); }
 
   static constexpr float kHalfVoxelDiagonal = 0.87F;  ///< rounded up
 };

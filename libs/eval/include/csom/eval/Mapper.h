@@ -18,6 +18,9 @@ struct VoxelEstimate {
   ClassId class_id = kFreeClass;  ///< of an occupied voxel; kFreeClass if free or unknown
   /// λ of each class, free first; of a method without classes only [1 − occupancy, occupancy].
   std::vector<double> probabilities;
+  /// What a surface in the voxel would be, even where it is held to be free; kFreeClass if the
+  /// method does not know.
+  ClassId surface_class = kFreeClass;
 };
 
 /// A map under test. One instance, one map. Frames and units as in SemanticMap: map frame, metres.

@@ -10,9 +10,11 @@
 
 namespace csom {
 
-/// What the voxel at each labelled point says of it. A voxel that is unknown or free gives the
-/// point class 0, which is never right. Points never seen count, or a map could do better by
-/// knowing less; the scores named `covered` are over the points in known voxels alone.
+/// What the voxel at each labelled point says of it. A labelled point lies on a surface, so that the
+/// voxel is asked of what class a surface in it would be. An unknown voxel gives the point class 0,
+/// which is never right: points never seen count, or a map could do better by knowing less. The
+/// scores named `covered` are over the points in known voxels alone; to those named `occupied` a
+/// point is wrong too if the map holds its voxel to be free.
 class PointScore {
  public:
   explicit PointScore(int number_of_classes);
@@ -26,6 +28,8 @@ class PointScore {
   /// Mean IoU over the classes present in the truth.
   double meanIou() const { return all_.meanIou(); }
   double accuracy() const { return all_.accuracy(); }
+  double occupiedMeanIou() const { return occupied_.meanIou(); }
+  double occupiedAccuracy() const { return occupied_.accuracy(); }
   double coveredMeanIou() const { return covered_.meanIou(); }
   double coveredAccuracy() const { return covered_.accuracy(); }
   /// Share of points in a known voxel.
@@ -36,6 +40,7 @@ class PointScore {
  private:
   ConfusionMatrix all_;
   ConfusionMatrix covered_;
+  ConfusionMatrix occupied_;
   Calibration calibration_;
 };
 
