@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // csom export: a map in the formats of other programs.
+#include <csom/core/Error.h>
 #include <csom/exports/DistanceField.h>
 #include <csom/exports/GltfFile.h>
 #include <csom/exports/NavigationFiles.h>
@@ -37,6 +38,15 @@ const std::map<std::string, ExportFormat>& formats() {
       {"glb", ExportFormat::Glb},         {"vdb", ExportFormat::Vdb},
       {"esdf", ExportFormat::Esdf}};
   return words;
+}
+
+/// Throws ConfigError, which takes one line, as any other export that cannot be done.
+ExportFormat formatNamed(const std::string& name) {
+  const auto found = formats().find(CLI::detail::to_lower(name));
+  if (found != formats().end()) return found->second;
+  std::string known;
+  for (const auto& [word, format] : formats()) known += (known.empty() ? "" : ", ") + word;
+  throw ConfigError("--to: no format '" + name + "'; there are " + known);
 }
 
 struct ExportArguments {
@@ -183,9 +193,11 @@ void addExportCommand(CLI::App& program) {
   auto arguments = std::make_shared<ExportArguments>();
   CLI::App* command = program.add_subcommand("export", "Write a map in a format of other programs");
   command->add_option("MAP", arguments->file, "map file (.csom)")->required();
-  command->add_option("--to", arguments->format, "one of the formats below")
+  command
+      ->add_option_function<std::string>(
+          "--to", [arguments](const std::string& name) { arguments->format = formatNamed(name); },
+          "one of the formats below")
       ->required()
-      ->transform(oneOf(formats()))
       ->type_name("FORMAT");
   command->add_option("-o,--output", arguments->output, "file to write")->required();
   addVoxelFilter(*command, arguments->filter);

@@ -236,6 +236,8 @@ TEST_F(ExportCommand, ImpossibleOnesSayWhyAndLeaveNothing) {
     if (format.further.empty())
       expectRefusal(folder_ / "empty.csom", format, file, {}, "the map is empty");
   }
+  expectRefusal(map_, {"obj", "", {}}, folder_ / "out.obj", {},
+                "--to: no format 'obj'; there are csv, esdf, glb,");
   const std::string yaml = folder_ / "out.yaml";
   expectRefusal(map_, {"nav2", "", {}}, yaml, {}, "--traversable");
   expectRefusal(map_, {"nav2", "", {}}, yaml,
@@ -247,17 +249,11 @@ TEST_F(ExportCommand, ImpossibleOnesSayWhyAndLeaveNothing) {
 
 TEST_F(ExportCommand, WrongOptionsEndWithUsage) {
   const std::vector<std::vector<std::string>> wrong{
-      {"--to", "obj"},
-      {"--to", "ply", "--traversable", "road"},
-      {"--to", "ply", "--max-distance", "3"},
-      {"--to", "esdf", "--robot-height", "3"},
-      {"--to", "esdf", "--max-distance", "0"},
-      {"--to", "nav2", "--robot-height", "-1"},
-      {"--to", "nav2", "--obstacle-band", "2,1"},
-      {"--to", "nav2", "--obstacle-band", "1"},
-      {"--to", "ply", "--box", "0,0,0,1,0,1"},
-      {"--to", "ply", "--min-probability", "1.5"},
-      {"--to", "ply", "--min-evidence", "-1"},
+      {"--to", "ply", "--traversable", "road"},    {"--to", "ply", "--max-distance", "3"},
+      {"--to", "esdf", "--robot-height", "3"},     {"--to", "esdf", "--max-distance", "0"},
+      {"--to", "nav2", "--robot-height", "-1"},    {"--to", "nav2", "--obstacle-band", "2,1"},
+      {"--to", "nav2", "--obstacle-band", "1"},    {"--to", "ply", "--box", "0,0,0,1,0,1"},
+      {"--to", "ply", "--min-probability", "1.5"}, {"--to", "ply", "--min-evidence", "-1"},
       {"--to", "ply", "--frame", "1,2,3"},
   };
   for (std::vector<std::string> arguments : wrong) {
