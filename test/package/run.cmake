@@ -31,6 +31,12 @@ run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${CONSUMER_DIR}/core_only -B ${WORK_DIR}
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/core_only)
 run(${WORK_DIR}/core_only/planner)
 
+foreach(component vision io exports mrpt_exports eval maps rawlog protocols report)
+  run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${CONSUMER_DIR}/one_component
+    -B ${WORK_DIR}/one_component/${component} -DCOMPONENT=${component}
+    -DCMAKE_PREFIX_PATH=${WORK_DIR}/moved -DCMAKE_CXX_COMPILER=${CXX_COMPILER})
+endforeach()
+
 run(${WORK_DIR}/moved/${BINDIR}/csom --version)
 foreach(file labels/semantickitti.yaml campus.ini)
   if(NOT EXISTS ${WORK_DIR}/moved/${DATADIR}/mrpt_csom/${file})
