@@ -196,8 +196,9 @@ LastInsertion CSemanticContinuousMap::lastInsertion() const {
 }
 
 void CSemanticContinuousMap::invalidateCaches() {
-  for (OccupiedPoints* points : {&occupied_points_, &points_for_2d_, &points_for_3d_})
-    points->invalidate();
+  occupied_points_.invalidate();
+  surfaces_for_2d_.invalidate();
+  surfaces_for_3d_.invalidate();
   nearest_voxels_.invalidate();
 }
 

@@ -14,6 +14,7 @@
 #include <csom/maps/ObservedPoints.h>
 #include <csom/maps/OccupiedPoints.h>
 #include <csom/maps/SharedLabels.h>
+#include <csom/maps/SurfacePoints.h>
 #include <mrpt/config/CConfigFileBase.h>
 #include <mrpt/config/CLoadableOptions.h>
 #include <mrpt/maps/CMetricMap.h>
@@ -175,6 +176,10 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   void saveMetricMapRepresentationToFile(const std::string& prefix) const override;
   void auxParticleFilterCleanUp() override;
 
+  // Pairs of this map's surfaces (see SurfacePoints) with the points of a points map, or of one that
+  // getAsSimplePointsMap() makes; std::invalid_argument for others. If both sides know classes (the
+  // other is a semantic map of the same label set, or an XYZI cloud and point_labels = intensity),
+  // pairs of different classes are left out.
   void determineMatching2D(const mrpt::maps::CMetricMap* other,
                            const mrpt::poses::CPose2D& other_pose,
                            mrpt::tfest::TMatchingPairList& correspondences,
@@ -189,6 +194,8 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
                                const mrpt::poses::CPose3D& other_pose,
                                const mrpt::maps::TMatchingRatioParams& params) const override;
   float squareDistanceToClosestCorrespondence(float x0, float y0) const override;
+  /// What others are matched with. Valid until the map is modified or destroyed.
+  const SurfacePoints& surfaces() const { return surfaces_for_3d_.get(map_); }
   /// Centres of the occupied voxels. Valid until the map is modified or destroyed.
   const mrpt::maps::CSimplePointsMap* getAsSimplePointsMap() const override;
 
@@ -225,8 +232,8 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   LabelledScanObserver labelled_scan_observer_;
   OccupiedPoints occupied_points_;  ///< what getAsSimplePointsMap() hands out
   // MRPT's points maps fail when they are searched in 2-D and then in 3-D: one for each.
-  OccupiedPoints points_for_2d_;
-  OccupiedPoints points_for_3d_;
+  SurfacePointsCache surfaces_for_2d_;
+  SurfacePointsCache surfaces_for_3d_;
   NearestVoxelField nearest_voxels_;     ///< of the likelihood
   ObservedPointsCache observed_points_;  ///< of the likelihood
 };
