@@ -82,7 +82,7 @@ TEST(CameraMapAccuracy, isAtLeastThatOfTheNetworkOnTheSamePixels) {
   std::size_t map_right = 0;
   for (const JudgedPoint& point : drive.points()) {
     network_right += point.network == point.truth ? 1 : 0;
-    map_right += drive.map().map().at(point.in_map).mostLikelyClass() == point.truth ? 1 : 0;
+    map_right += drive.map().map().at(point.in_map).surfaceClass() == point.truth ? 1 : 0;
   }
   const auto count = static_cast<double>(drive.points().size());
   ASSERT_GT(count, 100000);
