@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // MRPT's icp-slam with the semantic map as its only map.
-#include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/maps/CSimpleMap.h>
 
 #include <cmath>
