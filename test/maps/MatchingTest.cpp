@@ -2,6 +2,7 @@
 // Matching against other maps prefers the true pose.
 #include <csom/maps/CSemanticContinuousMap.h>
 #include <gtest/gtest.h>
+#include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/poses/CPose2D.h>
@@ -92,6 +93,16 @@ TEST(Matching, ratioIsHigherAtTheTruth) {
   const float here = map.compute3DMatchingRatio(&other, CPose3D(), params);
   EXPECT_FLOAT_EQ(here, 1.0f);
   EXPECT_LT(map.compute3DMatchingRatio(&other, CPose3D(20, 0, 0, 0, 0, 0), params), 0.1f);
+}
+
+TEST(Matching, findsTheSemanticMapInASetOfMaps) {
+  const CSemanticContinuousMap map = roomMap();
+  mrpt::maps::CMultiMetricMap set;  // as map-partition hands it over
+  EXPECT_THROW(map.compute3DMatchingRatio(&set, CPose3D(), {}), std::invalid_argument);
+  set.maps.push_back(mrpt::maps::COccupancyGridMap2D::Create());
+  set.maps.push_back(std::make_shared<CSemanticContinuousMap>(map));
+  EXPECT_FLOAT_EQ(map.compute3DMatchingRatio(&set, CPose3D(), {}), 1.0f);
+  EXPECT_LT(map.compute3DMatchingRatio(&set, CPose3D(20, 0, 0, 0, 0, 0), {}), 0.1f);
 }
 
 TEST(Matching, needsPointsOnTheOtherSide) {

@@ -2,6 +2,7 @@
 // Matching against other maps: between the surfaces of this map and the other map's points.
 #include <csom/maps/CSemanticContinuousMap.h>
 #include <csom/maps/CSemanticPointsMap.h>
+#include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/poses/CPose2D.h>
@@ -15,7 +16,14 @@
 namespace csom {
 namespace {
 
+/// The semantic map that `other` is, or is the guise of, or holds beside other maps; null: none.
 const CSemanticContinuousMap* semanticOf(const mrpt::maps::CMetricMap* other) {
+  if (const auto* set = dynamic_cast<const mrpt::maps::CMultiMetricMap*>(other)) {
+    for (const auto& map : set->maps) {
+      if (const auto* semantic = semanticOf(map.get())) return semantic;
+    }
+    return nullptr;
+  }
   const auto* points = dynamic_cast<const CSemanticPointsMap*>(other);
   return points != nullptr ? &points->semanticMap()
                            : dynamic_cast<const CSemanticContinuousMap*>(other);
