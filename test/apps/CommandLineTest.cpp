@@ -38,8 +38,8 @@ TEST_F(CommandLine, NamesWordsThatAreNoCommand) {
 
 TEST_F(CommandLine, ListsTheWordsOfAChoice) {
   expectUsageError({"export", "m.csom", "--to", "obj", "-o", "m.obj"},
-                   "'obj': expected one of csv, ");
-  expectUsageError({"export", "m.csom", "--to", "2", "-o", "m.csv"}, "'2': expected one of");
+                   "no format 'obj'; there are csv, ");
+  expectUsageError({"export", "m.csom", "--to", "2", "-o", "m.csv"}, "no format '2'; there are");
   const auto upper_case = runCsom(
       folder_.path(), {"export", folder_ / "none.csom", "--to", "CSV", "-o", folder_ / "a"});
   EXPECT_EQ(upper_case.exit_code, 1);
