@@ -4,6 +4,7 @@
 #include <csom/io/MapFile.h>
 #include <csom/io/OutputFile.h>
 #include <csom/io/TextParser.h>
+#include <csom/maps/DefaultIni.h>
 #include <csom/rawlog/MappingRun.h>
 #include <csom/rawlog/RawlogWriter.h>
 #include <csom/report/Format.h>
@@ -175,6 +176,15 @@ void addMapCommand(CLI::App& program) {
   command->add_flag("--no-deskew", arguments->no_deskew,
                     "Take Velodyne scans as they are, although the robot moves while the sensor "
                     "turns");
+  command
+      ->add_flag_callback(
+          "--print-config",
+          [] {
+            std::fputs(defaultIni().c_str(), stdout);
+            throw CLI::Success();
+          },
+          "Print an ini with every key, its default and what it means, and do nothing else")
+      ->trigger_on_parse();
   command->add_flag("--no-html", arguments->no_html, "Write no report.html");
   command->add_flag("--color-blind", arguments->color_blind,
                     "Pictures in colours that people with colour-blind eyes tell apart, instead of "

@@ -2,13 +2,16 @@
 // The map as ini files define it: every key, and every mistake named.
 #include <csom/core/Error.h>
 #include <csom/maps/CSemanticContinuousMap.h>
+#include <csom/maps/DefaultIni.h>
 #include <gmock/gmock.h>
 #include <mrpt/config/CConfigFile.h>
 #include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/maps/CMultiMetricMap.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include "SampleObservations.h"
@@ -343,6 +346,44 @@ TEST(IniReference, listsEveryKeyWithItsDefault) {
   visitLikelihoodOptions(likelihood, [&](const std::string& key, const auto& field, auto, auto) {
     EXPECT_THAT(text.str(), HasSubstr("| `" + key + "` | " + toString(field) + " |"));
   });
+}
+
+/// The keys that are set or commented out in an ini, in order.
+std::vector<std::string> keysOf(const std::string& ini) {
+  const std::regex line(R"(^;?([A-Za-z_0-9]+) = )", std::regex::multiline);
+  std::vector<std::string> keys;
+  for (std::sregex_iterator it(ini.begin(), ini.end(), line), end; it != end; ++it)
+    keys.push_back((*it)[1]);
+  return keys;
+}
+
+TEST_F(MapDefinition, defaultIniSaysWhatIsSoAnyway) {
+  const Definition read = CSemanticContinuousMap::definitionFromIni(file(defaultIni()));
+  EXPECT_THAT(read.unknownKeys(), ElementsAre());
+  const auto textOf = [](const Definition& definition) {
+    std::ostringstream text;
+    definition.dumpToTextStream(text);
+    return text.str();
+  };
+  EXPECT_EQ(textOf(read), textOf(Definition()));
+}
+
+TEST(IniReference, listsTheKeysOfTheDefaultIni) {
+  const std::string ini = defaultIni();
+  const std::vector<std::string> keys = keysOf(ini);
+  EXPECT_GT(keys.size(), 50u);
+  std::ostringstream reference;
+  reference << std::ifstream(CSOM_SOURCE_DIR "/docs/ini-reference.md").rdbuf();
+  for (const std::string& key : keys) {
+    if (key == "semanticContinuousMap_count") continue;
+    EXPECT_THAT(reference.str(), HasSubstr("| `" + key + "` |"));
+    const std::size_t at = ini.find(key + " = ");
+    const std::size_t comment = ini.rfind("\n; ", at);
+    EXPECT_EQ(std::count(ini.begin() + static_cast<std::ptrdiff_t>(comment) + 1,
+                         ini.begin() + static_cast<std::ptrdiff_t>(at), '\n'),
+              1)
+        << key << " has no comment";
+  }
 }
 
 }  // namespace

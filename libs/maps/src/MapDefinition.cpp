@@ -34,9 +34,9 @@ void readCoreOptions(IniSection& section, Options& options) {
 }
 
 void readInsertion(IniSection& section, CSemanticContinuousMap::TInsertionOptions& options) {
-  section.read("point_labels", options.point_labels);
-  section.read("unlabelled_class", options.unlabelled_class);
-  section.read("scan_2d_class", options.scan_2d_class);
+  visitInsertionOptions(options, [&](const char* key, auto& field, const char*, const char*) {
+    section.read(key, field);
+  });
 }
 
 void readLikelihood(IniSection& section, CSemanticContinuousMap::TLikelihoodOptions& options) {
@@ -51,8 +51,9 @@ void readLikelihood(IniSection& section, CSemanticContinuousMap::TLikelihoodOpti
 }
 
 void readRendering(IniSection& section, CSemanticContinuousMap::TRenderingOptions& options) {
-  section.read("occupied_voxels", options.occupied_voxels);
-  section.read("free_voxels", options.free_voxels);
+  visitRenderingOptions(options, [&](const char* key, auto& field, const char*, const char*) {
+    section.read(key, field);
+  });
 }
 
 template <class Value>
@@ -289,9 +290,9 @@ void CSemanticContinuousMap::TInsertionOptions::loadFromConfigFile(const CConfig
 }
 
 void CSemanticContinuousMap::TInsertionOptions::dumpToTextStream(std::ostream& out) const {
-  dump(out, "point_labels", toString(point_labels));
-  dump(out, "unlabelled_class", unlabelled_class);
-  dump(out, "scan_2d_class", scan_2d_class);
+  visitInsertionOptions(*this, [&](const char* key, const auto& field, const char*, const char*) {
+    dump(out, key, toString(field));
+  });
 }
 
 void CSemanticContinuousMap::TLikelihoodOptions::loadFromConfigFile(const CConfigFileBase& source,
@@ -313,8 +314,9 @@ void CSemanticContinuousMap::TRenderingOptions::loadFromConfigFile(const CConfig
 }
 
 void CSemanticContinuousMap::TRenderingOptions::dumpToTextStream(std::ostream& out) const {
-  dump(out, "occupied_voxels", toString(occupied_voxels));
-  dump(out, "free_voxels", toString(free_voxels));
+  visitRenderingOptions(*this, [&](const char* key, const auto& field, const char*, const char*) {
+    dump(out, key, toString(field));
+  });
 }
 
 }  // namespace csom

@@ -176,10 +176,10 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   void saveMetricMapRepresentationToFile(const std::string& prefix) const override;
   void auxParticleFilterCleanUp() override;
 
-  // Pairs of this map's surfaces (see SurfacePoints) with the points of a points map, or of one that
-  // getAsSimplePointsMap() makes; std::invalid_argument for others. If both sides know classes (the
-  // other is a semantic map of the same label set, or an XYZI cloud and point_labels = intensity),
-  // pairs of different classes are left out.
+  // Pairs of this map's surfaces (see SurfacePoints) with the points of a points map, or of one
+  // that getAsSimplePointsMap() makes; std::invalid_argument for others. If both sides know classes
+  // (the other is a semantic map of the same label set, or an XYZI cloud and point_labels =
+  // intensity), pairs of different classes are left out.
   void determineMatching2D(const mrpt::maps::CMetricMap* other,
                            const mrpt::poses::CPose2D& other_pose,
                            mrpt::tfest::TMatchingPairList& correspondences,
@@ -237,5 +237,25 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   NearestVoxelField nearest_voxels_;     ///< of the likelihood
   ObservedPointsCache observed_points_;  ///< of the likelihood
 };
+
+/// Calls `visitor(key, field, unit, help)` for every field, in order.
+template <class InsertionOptionsLike, class Visitor>
+void visitInsertionOptions(InsertionOptionsLike&& o, Visitor&& visitor) {
+  visitor("point_labels", o.point_labels, "",
+          "where the labels of points are: none | intensity | color");
+  visitor(
+      "unlabelled_class", o.unlabelled_class, "",
+      "class of points without a label, or drop; without it occupied or else unlabelled, if the "
+      "label set has it, else drop");
+  visitor("scan_2d_class", o.scan_2d_class, "",
+          "class of all rays of 2-D laser scans, or drop; without it as unlabelled_class");
+}
+
+/// The same.
+template <class RenderingOptionsLike, class Visitor>
+void visitRenderingOptions(RenderingOptionsLike&& o, Visitor&& visitor) {
+  visitor("occupied_voxels", o.occupied_voxels, "", "3-D views show occupied voxels");
+  visitor("free_voxels", o.free_voxels, "", "3-D views show free voxels, faintly");
+}
 
 }  // namespace csom
