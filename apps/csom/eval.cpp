@@ -32,8 +32,8 @@ void printAsText(const VoxelScore& score, const LabelSet& labels) {
               percent(score.accuratenessOccupied()));
   std::printf("accurateness          %6.2f %%  of all %zu voxels\n\n",
               percent(score.accuratenessBox()), score.voxels());
-  std::printf("  %-20s %10s %10s %8s %10s %8s %8s\n", "class", "true", "mapped", "IoU",
-              "precision", "recall", "F1");
+  std::printf("  %-20s %10s %10s %8s %10s %8s %8s\n", "class", "true", "mapped", "IoU", "precision",
+              "recall", "F1");
   for (int i = 1; i < score.numberOfClasses(); ++i) {
     const auto k = static_cast<ClassId>(i);
     if (score.truthCount(k) + score.predictedCount(k) == 0) continue;
@@ -56,13 +56,15 @@ void runEvalVoxels(const EvalArguments& arguments) {
 }  // namespace
 
 void addEvalCommand(CLI::App& program) {
-  CLI::App* eval = program.add_subcommand("eval", "Score a map, or labels from a camera, against the truth");
+  CLI::App* eval =
+      program.add_subcommand("eval", "Score a map, or labels from a camera, against the truth");
   eval->require_subcommand(1);
   auto arguments = std::make_shared<EvalArguments>();
   CLI::App* voxels = eval->add_subcommand("voxels", "Voxel by voxel, against a map of the truth");
   voxels->description(
       "Scores a map against the truth, voxel by voxel: IoU of each class, their average weighted\n"
-      "by frequency, and occupied against not. JSON has the confusion matrix too. The truth is a map too: 'csom simulate --truth'\n"
+      "by frequency, and occupied against not. JSON has the confusion matrix too. The truth is a "
+      "map too: 'csom simulate --truth'\n"
       "writes the exact one of a simulated world; of a labelled data set it is the map of all\n"
       "points made by the same ini with 'method = s-csm' and 'ds_resolution = 0', the majority\n"
       "class of the points in each voxel.");

@@ -101,7 +101,8 @@ TEST(DirichletVoxel, FollowsEquation22) {
 TEST(DirichletVoxel, TiesGoToTheLowerClassAndUnknownIsUniform) {
   const std::array<std::uint8_t, 2> classes{0, 1};
   const std::array<std::uint32_t, 2> counts{7, 7};
-  EXPECT_EQ(DirichletVoxel(2, 0.001, 0, classes.data(), counts.data(), 2).state(), VoxelState::Free);
+  EXPECT_EQ(DirichletVoxel(2, 0.001, 0, classes.data(), counts.data(), 2).state(),
+            VoxelState::Free);
   const DirichletVoxel unknown(4, 0.001, 0);
   EXPECT_FALSE(unknown.known());
   EXPECT_EQ(unknown.state(), VoxelState::Unknown);

@@ -44,9 +44,10 @@ class Inference {
         neighbours_(detail::extendedBlock(options.context_neighbours)),
         blocks_per_chunk_(kChunkSide >> (scan.block_depth - 1)),
         block_side_(1 << (scan.block_depth - 1)),
-        reach_(options.neighbourhood == Neighbourhood::ExtendedBlock
-                   ? 1
-                   : detail::NearbyBlocks::reachOf(longestKernel(), block_side_, kVoxelCenterInset)),
+        reach_(
+            options.neighbourhood == Neighbourhood::ExtendedBlock
+                ? 1
+                : detail::NearbyBlocks::reachOf(longestKernel(), block_side_, kVoxelCenterInset)),
         extended_block_{halfWidthsOfExtendedBlock(true), halfWidthsOfExtendedBlock(false)} {}
 
   ScanIncrements run(ScanReport& report) {

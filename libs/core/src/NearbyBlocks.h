@@ -32,8 +32,8 @@ class NearbyBlocks {
 
   /// Blocks that a length can reach, at least one.
   static int reachOf(float length, int block_side, float inset) {
-    return std::max(1, static_cast<int>(std::ceil((length - inset) /
-                                                  static_cast<float>(block_side))));
+    return std::max(1,
+                    static_cast<int>(std::ceil((length - inset) / static_cast<float>(block_side))));
   }
 
   /// Lengths share their widths by quarters of a voxel, rounded up: points too far are sorted out

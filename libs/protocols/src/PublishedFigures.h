@@ -42,8 +42,8 @@ inline constexpr std::array<PublishedFigure, 23> kPaper{{
     {"P5", "", "see-csom", "geometric_iou", 0.62},
 }};
 
-/// Their code and OctoMap, compiled with optimisation: P2 on its own half-voxel grid, P3 on ten scans; the
-/// middle of the range of medians in milliseconds.
+/// Their code and OctoMap, compiled with optimisation: P2 on its own half-voxel grid, P3 on ten
+/// scans; the middle of the range of medians in milliseconds.
 inline constexpr std::array<PublishedFigure, 21> kTheirCode{{
     {"P2", "ds 0.05", "s-csm", "w_average_iou", 0.649},
     {"P2", "ds 0.05", "s-bki", "w_average_iou", 0.167},

@@ -10,11 +10,11 @@
 
 namespace csom {
 
-/// What the voxel at each labelled point says of it. A labelled point lies on a surface, so that the
-/// voxel is asked of what class a surface in it would be. An unknown voxel gives the point class 0,
-/// which is never right: points never seen count, or a map could do better by knowing less. The
-/// scores named `covered` are over the points in known voxels alone; to those named `occupied` a
-/// point is wrong too if the map holds its voxel to be free.
+/// What the voxel at each labelled point says of it. A labelled point lies on a surface, so that
+/// the voxel is asked of what class a surface in it would be. An unknown voxel gives the point
+/// class 0, which is never right: points never seen count, or a map could do better by knowing
+/// less. The scores named `covered` are over the points in known voxels alone; to those named
+/// `occupied` a point is wrong too if the map holds its voxel to be free.
 class PointScore {
  public:
   explicit PointScore(int number_of_classes);
