@@ -13,10 +13,11 @@ namespace csom::detail {
 /// the centre v of a voxel, with the sums over the scan's hits, the hits H inside the voxel, and
 /// the kernel mass F of free samples:
 ///
-///     V = Σ_{surfaces through v} k_i(v) + w_hit·H,   S = Σ_{surfaces near v} k_i(v) + w_hit·H (S2)
-///     M = max(0, 2τ − S),   g = (g_min + (1 − g_min)·(1 − M/2τ))·min(1, S/0.3) (S3) Δσ^0 =
-///     g·w_counter·(S − V + ρ·M) + max(0, 1 − S/τ)·min(F, F_max)                           (S4)
-///     Δσ^k = g·V·m^k/Σm for k ≥ 1 (S5)
+///     V = Σ_{surfaces through v} k_i(v) + w_hit·H
+///     S = Σ_{surfaces near v} k_i(v) + w_hit·H                                          (S2)
+///     M = max(0, 2τ − S),   g = (g_min + (1 − g_min)·(1 − M/2τ))·min(1, S/0.3)          (S3)
+///     Δσ^0 = g·w_counter·(S − V + ρ·M) + max(0, 1 − S/τ)·min(F, F_max)                  (S4)
+///     Δσ^k = g·V·m^k/Σm for k ≥ 1                                                       (S5)
 ///
 /// ρ is the mean of ρ_i over S, and m^k = Σ_{hits of class k} k(‖v − p_i‖/max(L_J, reach_i)) the
 /// kernel mass of eqs. (16)–(21), no hit's kernel being shorter than its surface's.
