@@ -68,6 +68,26 @@ TEST(SemanticMap, FreeSpaceOfBothKindsLiesBetweenSensorAndSurface) {
   }
 }
 
+TEST(SemanticMap, AFloorOnTheBorderOfVoxelsIsNotLost) {
+  Options options;
+  options.number_of_classes = 2;
+  options.resolution = 0.25;
+  Scan scan;
+  scan.origin = {0, 0, 0};
+  for (int x = -20; x < 20; ++x)
+    for (int y = -20; y < 20; ++y)
+      scan.points.emplace_back(0.125F * static_cast<float>(x) + 0.0625F,
+                               0.125F * static_cast<float>(y) + 0.0625F, 0.0F);
+  scan.labels.assign(scan.points.size(), 1);
+  SemanticMap map(options);
+  map.insert(scan);
+  for (int x = -10; x < 10; ++x)
+    for (int y = -10; y < 10; ++y) {
+      EXPECT_EQ(map.voxel({x, y, 0}).state(), VoxelState::Occupied) << x << ' ' << y;
+      EXPECT_NE(map.voxel({x, y, -1}).state(), VoxelState::Occupied) << x << ' ' << y;
+    }
+}
+
 TEST(SemanticMap, AScanThatFillsNothingLeavesTheMapEmpty) {
   Options options = cornerOptions();
   options.method = Method::SeeCsom;
