@@ -41,16 +41,9 @@ ClassId DirichletVoxel::surfaceClass() const {
 }
 
 ClassId DirichletVoxel::mostLikelyLabel() const {
-  std::uint64_t best_count = 0;
-  ClassId best = unlabelled_;
-  for (int i = 0; i < size_; ++i) {
-    if (classes_[i] == kFreeClass || classes_[i] == unlabelled_ || counts_[i] <= best_count)
-      continue;
-    best_count = counts_[i];
-    best = classes_[i];
-  }
-  const std::uint64_t occupied = best_count + count(unlabelled_);
-  return count(kFreeClass) >= occupied ? kFreeClass : best;
+  const ClassId best = surfaceClass();
+  const std::uint64_t labelled = best == kFreeClass || best == unlabelled_ ? 0 : count(best);
+  return count(kFreeClass) >= labelled + count(unlabelled_) ? kFreeClass : best;
 }
 
 std::uint32_t DirichletVoxel::count(ClassId k) const {

@@ -3,87 +3,39 @@
 
 #include <csom/core/Kernel.h>
 
-#include <algorithm>
-
-#include "FixedPointLanes.h"
+#include "KernelMassLoops.h"
 
 namespace csom::detail {
 
 namespace {
 
-template <class KernelFunction>
-CSOM_INLINE void addMass(KernelFunction kernel, const PointColumns& points,
-                         const std::vector<std::uint32_t>& selected,
-                         const std::vector<float>& scores, const LaneGroup& group,
-                         const BlockPlace& block, float length, LaneSums& sums) {
-  const float inverse_length = 1.0F / length / kUnits;
-  const WordLanes x = group.x + block.x;
-  const WordLanes y = group.y + block.y;
-  const WordLanes z = group.z + block.z;
-  const FixedPoint* const px = points.x.data();
-  const FixedPoint* const py = points.y.data();
-  const FixedPoint* const pz = points.z.data();
-  alignas(kLaneAlignment) std::array<Lanes, LaneSums::kCarryInterval> masses;
-  for (std::size_t first = 0; first < selected.size(); first += masses.size()) {
-    const std::size_t size = std::min(masses.size(), selected.size() - first);
-    const std::uint32_t* const batch = selected.data() + first;
-    for (std::size_t i = 0; i < size; ++i) {
-      const std::uint32_t p = batch[i];
-      const Lanes dx = toFloat(x - px[p]);
-      const Lanes dy = toFloat(y - py[p]);
-      const Lanes dz = toFloat(z - pz[p]);
-      const Lanes t = squareRoot(dx * dx + dy * dy + dz * dz) * inverse_length;
-      masses[i] = t < 1.0F ? kernel(t) : Lanes{};
-    }
-    if (scores.empty()) {
-      sums.add(points.label.data(), batch, masses.data(), size);
-    } else {
-      sums.add(scores.data(), batch, masses.data(), size);
-    }
-    sums.carry();
-  }
-}
-
 CSOM_EVERY_PROCESSOR
 void addSparse(const PointColumns& points, const std::vector<std::uint32_t>& selected,
                const std::vector<float>& scores, const LaneGroup& group, const BlockPlace& block,
-               float length, LaneSums& sums) {
-  addMass(
-      [](const Lanes& t) __attribute__((always_inline)) { return sparseKernel(t); }, points,
-      selected, scores, group, block, length, sums);
+               float inverse_length, LaneSums& sums) {
+  addMassOfPoints(
+      [](const Lanes& t) __attribute__((always_inline)) { return sparseKernel(t); },
+      [=](std::uint32_t) __attribute__((always_inline)) { return inverse_length; }, points,
+      selected, scores, group, block, sums);
 }
 
 CSOM_EVERY_PROCESSOR
 void addLinear(const PointColumns& points, const std::vector<std::uint32_t>& selected,
                const std::vector<float>& scores, const LaneGroup& group, const BlockPlace& block,
-               float length, LaneSums& sums) {
-  addMass(
-      [](const Lanes& t) __attribute__((always_inline)) { return linearKernel(t); }, points,
-      selected, scores, group, block, length, sums);
+               float inverse_length, LaneSums& sums) {
+  addMassOfPoints(
+      [](const Lanes& t) __attribute__((always_inline)) { return linearKernel(t); },
+      [=](std::uint32_t) __attribute__((always_inline)) { return inverse_length; }, points,
+      selected, scores, group, block, sums);
 }
 
 CSOM_EVERY_PROCESSOR
 std::size_t select(const PointColumns& points, const std::vector<PointRange>& ranges,
                    const BlockPlace& block, float length, std::uint32_t* selected) {
-  const FixedPoint middle = block.edge / 2;
-  const FixedPoint half = middle - kFixedPointVoxel / 2;  // to the outermost voxel centres
-  const float limit = length * length * (kUnits * kUnits);
-  std::size_t size = 0;
-  for (const PointRange& range : ranges) {
-    for (std::uint32_t first = range.first; first < range.last; first += kLanes) {
-      const Lanes dx = distanceBeyond(load(points.x.data() + first), block.x + middle, half);
-      const Lanes dy = distanceBeyond(load(points.y.data() + first), block.y + middle, half);
-      const Lanes dz = distanceBeyond(load(points.z.data() + first), block.z + middle, half);
-      const Lanes squared = dx * dx + dy * dy + dz * dz;
-      const auto count = std::min<std::uint32_t>(kLanes, range.last - first);
-      const IntLanes near = squared < limit;
-      for (std::uint32_t lane = 0; lane < count; ++lane) {
-        selected[size] = first + lane;
-        size += near[lane] != 0 ? 1 : 0;
-      }
-    }
-  }
-  return size;
+  const Lanes limit = Lanes{} + length * kUnits;
+  return selectPoints(
+      points, ranges, block, [&](std::uint32_t) __attribute__((always_inline)) { return limit; },
+      selected);
 }
 
 }  // namespace
@@ -124,11 +76,8 @@ void selectNearby(const PointColumns& points, const std::vector<PointRange>& ran
 void addKernelMass(Kernel kernel, const PointColumns& points,
                    const std::vector<std::uint32_t>& selected, const std::vector<float>& scores,
                    const LaneGroup& group, const BlockPlace& block, float length, LaneSums& sums) {
-  if (kernel == Kernel::Sparse) {
-    addSparse(points, selected, scores, group, block, length, sums);
-  } else {
-    addLinear(points, selected, scores, group, block, length, sums);
-  }
+  const auto add = kernel == Kernel::Sparse ? addSparse : addLinear;
+  add(points, selected, scores, group, block, 1.0F / length / kUnits, sums);
 }
 
 }  // namespace csom::detail

@@ -41,13 +41,27 @@ class SurfaceClasses {
   double mass(ClassId k, std::size_t lane) const { return sums_.mass(k, lane); }
 
  private:
+  /// As PointColumns, and how far each hit reaches [voxels].
+  struct Hits {
+    std::vector<FixedPoint> x, y, z;
+    std::vector<ClassId> label;
+    std::vector<float> reach;
+  };
+
+  static std::size_t selectNear(const Hits& hits, std::size_t size, const BlockPlace& block,
+                                float length, std::uint32_t* selected);
+  static void addSparse(const Hits& hits, const std::vector<std::uint32_t>& selected,
+                        const std::vector<float>& scores, const LaneGroup& group,
+                        const BlockPlace& block, float length, LaneSums& sums);
+  static void addLinear(const Hits& hits, const std::vector<std::uint32_t>& selected,
+                        const std::vector<float>& scores, const LaneGroup& group,
+                        const BlockPlace& block, float length, LaneSums& sums);
+
   Kernel kernel_;
   LaneSums sums_;
-  // Hits, in the order of the scan; coordinates and reaches padded by whole vectors.
+  // In the order of the scan; coordinates and reaches are padded by whole vectors.
+  Hits hits_;
   std::size_t size_ = 0;
-  std::vector<FixedPoint> x_, y_, z_;
-  std::vector<float> reach_;
-  std::vector<ClassId> label_;
   std::vector<float> scores_;
   // Of them, those near the block.
   BlockPlace block_{};

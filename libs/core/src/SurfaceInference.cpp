@@ -22,8 +22,6 @@ namespace csom::detail {
 
 namespace {
 
-constexpr float kVoxelCenterInset = 0.5F;
-
 /// The chunks along an axis in which voxel centres may be nearer to a block than a reach.
 struct AxisReach {
   AxisReach(std::int32_t block, int block_side, float reach)

@@ -58,30 +58,42 @@ Counts readCounts(ByteReader& in) {
   return counts;
 }
 
-/// By name, so that a later version may add options.
-void write(ByteWriter& out, const Options& options) {
+/// Options are written and read by name, so that a later version may add some.
+/// `visit(visitor)` calls visitor(key, field, unit, help) for each.
+template <class Visit>
+void writeByName(ByteWriter& out, Visit&& visit) {
   Texts texts;
-  visitOptions(options, [&](const char* key, const auto& field, const char*, const char*) {
+  visit([&](const char* key, const auto& field, const char*, const char*) {
     texts[key] = toString(field);
   });
   write(out, texts);
+}
+
+template <class Visit>
+void readByName(ByteReader& in, Visit&& visit) {
+  Texts texts = readTexts(in);
+  visit([&](const char* key, auto& field, const char*, const char*) {
+    const auto text = texts.find(key);
+    if (text == texts.end()) return;
+    parse(key, text->second, field);
+    texts.erase(text);
+  });
+  if (!texts.empty())
+    throw std::runtime_error("serialised map: unknown option '" + texts.begin()->first + "'");
+}
+
+void write(ByteWriter& out, const Options& options) {
+  writeByName(out, [&](auto&& visitor) { visitOptions(options, visitor); });
 }
 
 Options readOptions(ByteReader& in) {
   Options options;
-  for (const auto& [key, text] : readTexts(in)) {
-    if (!setOption(options, key, text))
-      throw std::runtime_error("serialised map: unknown option '" + key + "'");
-  }
+  readByName(in, [&](auto&& visitor) { visitOptions(options, visitor); });
   return options;
 }
 
 void write(ByteWriter& out, const LabelOptions& options) {
-  Texts texts;
-  visitLabelOptions(options, [&](const char* key, const auto& field, const char*, const char*) {
-    texts[key] = toString(field);
-  });
-  write(out, texts);
+  writeByName(out, [&](auto&& visitor) { visitLabelOptions(options, visitor); });
   out.number(static_cast<std::uint64_t>(options.sources.size()));
   for (const LabelSource& source : options.sources)
     visitLabelSource(source, [&](const char*, const auto& field) { out.text(toString(field)); });
@@ -90,15 +102,7 @@ void write(ByteWriter& out, const LabelOptions& options) {
 LabelOptions readLabelOptions(ByteReader& in) {
   constexpr std::size_t kSmallest = 5 * sizeof(std::uint32_t);
   LabelOptions options;
-  Texts texts = readTexts(in);
-  visitLabelOptions(options, [&](const char* key, auto& field, const char*, const char*) {
-    const auto text = texts.find(key);
-    if (text == texts.end()) return;
-    parse(key, text->second, field);
-    texts.erase(text);
-  });
-  if (!texts.empty())
-    throw std::runtime_error("serialised map: unknown option '" + texts.begin()->first + "'");
+  readByName(in, [&](auto&& visitor) { visitLabelOptions(options, visitor); });
   options.sources.resize(in.count(kSmallest));
   for (LabelSource& source : options.sources)
     visitLabelSource(source, [&](const char* key, auto& field) { parse(key, in.text(), field); });
@@ -106,12 +110,8 @@ LabelOptions readLabelOptions(ByteReader& in) {
   return options;
 }
 
-/// By name, as above.
 void write(ByteWriter& out, const LikelihoodOptions& options) {
-  Texts texts;
-  visitLikelihoodOptions(options, [&](const char* key, const auto& field, const char*,
-                                      const char*) { texts[key] = toString(field); });
-  write(out, texts);
+  writeByName(out, [&](auto&& visitor) { visitLikelihoodOptions(options, visitor); });
 }
 
 LikelihoodOptions readLikelihoodOptions(ByteReader& in, std::uint8_t version) {
@@ -121,15 +121,7 @@ LikelihoodOptions readLikelihoodOptions(ByteReader& in, std::uint8_t version) {
     options.max_distance = in.number<double>();
     options.sigma = in.number<double>();
   } else {
-    Texts texts = readTexts(in);
-    visitLikelihoodOptions(options, [&](const char* key, auto& field, const char*, const char*) {
-      const auto text = texts.find(key);
-      if (text == texts.end()) return;
-      parse(key, text->second, field);
-      texts.erase(text);
-    });
-    if (!texts.empty())
-      throw std::runtime_error("serialised map: unknown option '" + texts.begin()->first + "'");
+    readByName(in, [&](auto&& visitor) { visitLikelihoodOptions(options, visitor); });
   }
   options.validate();
   return options;
