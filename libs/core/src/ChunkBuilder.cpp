@@ -13,80 +13,95 @@ namespace csom {
 
 namespace {
 
-/// Entries of the chunk's voxels, one voxel after the other.
-struct VoxelCursor {
-  const Chunk::Header* header;
-  const std::uint16_t* first_entries;
-  std::uint32_t rank = 0;   ///< voxels passed
-  std::uint32_t begin = 0;  ///< first entry of the voxel at hand
-  std::uint32_t end = 0;    ///< one beyond its last
+/// Walks through the known voxels of a chunk in order, to their entries.
+class VoxelCursor {
+ public:
+  explicit VoxelCursor(const Chunk::Header& header, const std::uint16_t* first_entries)
+      : header_(header), first_entries_(first_entries) {}
 
-  /// Goes on to the next known voxel, which lies in word `word`.
-  void next(std::size_t word) {
-    begin = end;
-    ++rank;
-    const std::uint32_t word_voxels =
-        word < 7 ? header->word_voxels[word + 1] : header->voxel_count;
-    if (rank < word_voxels) {
-      end = header->word_entries[word] + first_entries[rank];
-    } else {
-      end = word < 7 ? header->word_entries[word + 1] : header->entry_count;
-    }
+  /// Goes to the first voxel of a word.
+  void enter(std::size_t word) {
+    rank_ = header_.word_voxels[word];
+    last_ = word < 7 ? header_.word_voxels[word + 1] : header_.voxel_count;
+    word_begin_ = header_.word_entries[word];
+    word_end_ = word < 7 ? header_.word_entries[word + 1] : header_.entry_count;
+    end_ = word_begin_;
   }
+  /// Goes on to the entries begin … end−1 of the next voxel of the word.
+  void next() {
+    begin_ = end_;
+    ++rank_;
+    end_ = rank_ < last_ ? word_begin_ + first_entries_[rank_] : word_end_;
+  }
+  std::uint32_t begin() const { return begin_; }
+  std::uint32_t end() const { return end_; }
+
+ private:
+  const Chunk::Header& header_;
+  const std::uint16_t* first_entries_;
+  std::uint32_t rank_ = 0;  ///< voxels passed
+  std::uint32_t last_ = 0;  ///< rank of the first voxel of the next word
+  std::uint32_t word_begin_ = 0;
+  std::uint32_t word_end_ = 0;
+  std::uint32_t begin_ = 0;
+  std::uint32_t end_ = 0;
 };
 
 }  // namespace
 
 void ChunkBuilder::merge(const Chunk* base, const std::vector<CountIncrement>& increments) {
+  static const Chunk::Header kNothing{};
   header_ = Chunk::Header{};
-  std::size_t most = increments.size();
-  VoxelCursor old{};
-  const std::uint32_t* old_counts = nullptr;
-  const std::uint8_t* old_classes = nullptr;
-  std::array<std::uint64_t, 8> old_known{};
-  if (base != nullptr) {
-    old_known = base->header().known;
-    most += base->header().entry_count;
-    old = {&base->header(), base->firstEntries()};
-    old_counts = base->counts();
-    old_classes = base->classes();
-  }
+  const Chunk::Header& old_header = base != nullptr ? base->header() : kNothing;
+  const std::uint32_t* const old_counts = base != nullptr ? base->counts() : nullptr;
+  const std::uint8_t* const old_classes = base != nullptr ? base->classes() : nullptr;
+  VoxelCursor old(old_header, base != nullptr ? base->firstEntries() : nullptr);
+  const std::size_t most = increments.size() + old_header.entry_count;
   if (counts_.size() < most) {
     counts_.resize(most);
     classes_.resize(most);
   }
-  header_.known = old_known;
+  header_.known = old_header.known;
   for (const CountIncrement& entry : increments)
     header_.known[entry.voxel >> 6U] |= std::uint64_t{1} << (entry.voxel & 63U);
 
+  // Bytes may be part of anything: what is written through `classes` must not make the compiler
+  // read members again.
+  std::uint32_t* const counts = counts_.data();
+  std::uint8_t* const classes = classes_.data();
+  std::uint16_t* const first_entries = first_entries_.data();
   std::uint32_t voxels = 0;
   std::uint32_t entries = 0;
-  const auto append = [&](std::uint8_t class_id, std::uint32_t count) {
-    classes_[entries] = class_id;
-    counts_[entries++] = count;
+  const auto append = [&](ClassId class_id, std::uint32_t count) {
+    classes[entries] = static_cast<std::uint8_t>(class_id);
+    counts[entries++] = count;
   };
   const CountIncrement* next = increments.data();
   const CountIncrement* const last = next + increments.size();
   for (std::size_t word = 0; word < 8; ++word) {
+    const std::uint32_t word_entries = entries;
     header_.word_voxels[word] = static_cast<std::uint16_t>(voxels);
-    header_.word_entries[word] = entries;
+    header_.word_entries[word] = word_entries;
+    const std::uint64_t old_known = old_header.known[word];
+    if (old_known != 0) old.enter(word);
     for (std::uint64_t bits = header_.known[word]; bits != 0; bits &= bits - 1) {
-      const auto bit = static_cast<unsigned>(__builtin_ctzll(bits));
-      const std::size_t voxel = word * 64 + bit;
-      first_entries_[voxels++] = static_cast<std::uint16_t>(entries - header_.word_entries[word]);
-      if ((old_known[word] >> bit & 1U) != 0) {
-        old.next(word);
-        for (std::uint32_t i = old.begin; i < old.end; ++i) {
-          for (; next != last && next->voxel == voxel && next->class_id < old_classes[i]; ++next)
-            append(static_cast<std::uint8_t>(next->class_id), next->count);
-          const bool both =
-              next != last && next->voxel == voxel && next->class_id == old_classes[i];
-          append(old_classes[i], both ? addCounts(old_counts[i], next->count) : old_counts[i]);
+      const std::uint64_t bit = bits & -bits;
+      const std::size_t voxel = word * 64 + static_cast<std::size_t>(__builtin_ctzll(bits));
+      first_entries[voxels++] = static_cast<std::uint16_t>(entries - word_entries);
+      const CountIncrement* end = next;
+      while (end != last && end->voxel == voxel) ++end;
+      if ((old_known & bit) != 0) {
+        old.next();
+        for (std::uint32_t i = old.begin(); i < old.end(); ++i) {
+          const std::uint8_t class_id = old_classes[i];
+          for (; next != end && next->class_id < class_id; ++next)
+            append(next->class_id, next->count);
+          const bool both = next != end && next->class_id == class_id;
+          append(class_id, both ? addCounts(old_counts[i], next->count) : old_counts[i]);
           next += both ? 1 : 0;
         }
       }
-      for (; next != last && next->voxel == voxel; ++next)
-        append(static_cast<std::uint8_t>(next->class_id), next->count);
+      for (; next != end; ++next) append(next->class_id, next->count);
     }
   }
   header_.voxel_count = voxels;

@@ -13,6 +13,7 @@
 #include "BlockWindow.h"
 #include "ChunkTasks.h"
 #include "ClassMass.h"
+#include "Counts.h"
 #include "KernelMass.h"
 #include "NearbyBlocks.h"
 #include "Parallel.h"
@@ -88,6 +89,7 @@ class Inference {
     std::vector<detail::PointRange> ranges;
     std::vector<std::uint32_t> selected;
     detail::LaneSums sums;
+    std::vector<detail::CountLanes> counts;  ///< of the classes that `sums` lists
     detail::VoxelRuns runs;
     std::vector<double> class_mass;
   };
@@ -122,9 +124,8 @@ class Inference {
                          scratch.ranges);
       detail::selectNearby(points_, scratch.ranges, place, length, scratch.selected);
       for (const LaneGroup& group : groups_) {
-        scratch.sums.reset();
-        detail::addKernelMass(options_.kernel, points_, scratch.selected, scan_.scores, group,
-                              place, length, scratch.sums);
+        detail::sumKernelMass(options_.kernel, points_, scratch.selected, scan_.scores, group,
+                              place, length, options_.kernel_scale, scratch.sums, scratch.counts);
         store(block.index, group, scratch);
       }
     }
@@ -153,15 +154,13 @@ class Inference {
 
   void store(const BlockIndex& block, const LaneGroup& group, Scratch& scratch) const {
     const int side = block_side_;
-    const std::vector<ClassId>& classes = scratch.sums.finish();
+    const std::vector<ClassId>& classes = scratch.sums.classes();
     const std::size_t lanes = side > 1 ? kLanes : 1;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const VoxelIndex& v = group.voxel[lane];
       scratch.runs.add(
           indexInChunk({block.x * side + v.x, block.y * side + v.y, block.z * side + v.z}),
-          classes.data(), classes.size(), [&](ClassId k) {
-            return detail::toCount(options_.kernel_scale * scratch.sums.mass(k, lane));
-          });
+          classes.data(), classes.size(), [&](std::size_t i) { return scratch.counts[i][lane]; });
     }
   }
 
@@ -198,7 +197,7 @@ ScanIncrements countPoints(const PreparedScan& scan, const Options& options, Sca
       detail::sumClassMass(scan, b, mass);
       const BlockIndex& voxel = scan.blocks[b];
       runs.add(indexInChunk({voxel.x, voxel.y, voxel.z}), all_classes.data(), classes,
-               [&](ClassId k) { return detail::toCount(mass[k]); });
+               [&](std::size_t k) { return detail::toCount(mass[k]); });
     }
     const BlockIndex& first = scan.blocks[sorted[begin].item];
     report.voxels_updated += runs.voxelCount();

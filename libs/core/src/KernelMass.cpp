@@ -30,6 +30,11 @@ void addLinear(const PointColumns& points, const std::vector<std::uint32_t>& sel
 }
 
 CSOM_EVERY_PROCESSOR
+void countMass(const LaneSums& sums, double scale, CountLanes* counts) {
+  for (const ClassId k : sums.classes()) toCounts(sums.mass(k) * scale, *counts++);
+}
+
+CSOM_EVERY_PROCESSOR
 std::size_t select(const PointColumns& points, const std::vector<PointRange>& ranges,
                    const BlockPlace& block, float length, std::uint32_t* selected) {
   const Lanes limit = Lanes{} + length * kUnits;
@@ -73,11 +78,16 @@ void selectNearby(const PointColumns& points, const std::vector<PointRange>& ran
   selected.resize(select(points, ranges, block, length, selected.data()));
 }
 
-void addKernelMass(Kernel kernel, const PointColumns& points,
+void sumKernelMass(Kernel kernel, const PointColumns& points,
                    const std::vector<std::uint32_t>& selected, const std::vector<float>& scores,
-                   const LaneGroup& group, const BlockPlace& block, float length, LaneSums& sums) {
+                   const LaneGroup& group, const BlockPlace& block, float length, double scale,
+                   LaneSums& sums, std::vector<CountLanes>& counts) {
   const auto add = kernel == Kernel::Sparse ? addSparse : addLinear;
+  sums.reset();
   add(points, selected, scores, group, block, 1.0F / length / kUnits, sums);
+  sums.finish();
+  counts.resize(sums.classes().size());
+  countMass(sums, scale, counts.data());
 }
 
 }  // namespace csom::detail

@@ -40,10 +40,12 @@ struct PointRange {
 void selectNearby(const PointColumns& points, const std::vector<PointRange>& ranges,
                   const BlockPlace& block, float length, std::vector<std::uint32_t>& selected);
 
-/// Adds the kernel mass of the selected points to the voxels of a group of a block, in their order,
-/// with their labels or (if there are any) their scores. `length` in voxels.
-void addKernelMass(Kernel kernel, const PointColumns& points,
+/// Sums the kernel mass of the selected points for the voxels of a group of a block, in their
+/// order, with their labels or (if there are any) their scores. `length` in voxels. `counts`
+/// receives for each of sums.classes() the mass, times `scale`, as counts.
+void sumKernelMass(Kernel kernel, const PointColumns& points,
                    const std::vector<std::uint32_t>& selected, const std::vector<float>& scores,
-                   const LaneGroup& group, const BlockPlace& block, float length, LaneSums& sums);
+                   const LaneGroup& group, const BlockPlace& block, float length, double scale,
+                   LaneSums& sums, std::vector<CountLanes>& counts);
 
 }  // namespace csom::detail

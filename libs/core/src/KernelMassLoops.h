@@ -66,7 +66,7 @@ CSOM_INLINE void addMassOfPoints(KernelFunction kernel, InverseLength inverseLen
       const Lanes dy = toFloat(y - py[p]);
       const Lanes dz = toFloat(z - pz[p]);
       const Lanes t = squareRoot(dx * dx + dy * dy + dz * dz) * inverseLength(p);
-      masses[i] = t < 1.0F ? kernel(t) : Lanes{};
+      masses[i] = kernel(t);
     }
     if (scores.empty()) {
       sums.add(points.label.data(), batch, masses.data(), size);

@@ -5,11 +5,11 @@
 #include <csom/core/types.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "Counts.h"
 #include "Lanes.h"
 
 namespace csom::detail {
@@ -27,7 +27,7 @@ class LaneSums {
 
   void reset() {
     for (const ClassId k : touched_) {
-      carried_[k].fill(0.0);
+      carried_[k].lanes = MassLanes{};
       touched_flag_[k] = 0;
     }
     touched_.clear();
@@ -63,18 +63,16 @@ class LaneSums {
 
   CSOM_INLINE void carry() {
     for (const ClassId k : touched_) {
-      for (std::size_t lane = 0; lane < kLanes; ++lane)
-        carried_[k][lane] += static_cast<double>(sums_[k].mass[lane]);
+      carried_[k].lanes += __builtin_convertvector(sums_[k].mass, MassLanes);
       sums_[k].mass = Lanes{};
     }
   }
 
-  /// The classes with any mass, ascending; ends the additions.
-  const std::vector<ClassId>& finish() {
-    std::sort(touched_.begin(), touched_.end());
-    return touched_;
-  }
-  double mass(ClassId k, std::size_t lane) const { return carried_[k][lane]; }
+  /// Ends the additions: what follows may be asked.
+  void finish() { std::sort(touched_.begin(), touched_.end()); }
+  /// The classes with any mass, ascending.
+  const std::vector<ClassId>& classes() const { return touched_; }
+  const MassLanes& mass(ClassId k) const { return carried_[k].lanes; }
 
  private:
   struct alignas(kLaneAlignment) Sum {
@@ -88,7 +86,7 @@ class LaneSums {
   }
 
   std::vector<Sum> sums_;
-  std::vector<std::array<double, kLanes>> carried_;
+  std::vector<AlignedMassLanes> carried_;
   std::vector<std::uint8_t> touched_flag_;
   std::vector<ClassId> touched_;
 };

@@ -249,7 +249,7 @@ class SurfaceSearch {
     Eigen::Matrix3f squares = Eigen::Matrix3f::Zero();
     for (std::size_t i = 0; i < nearest.size(); ++i) {
       const float t = std::sqrt(nearest.squared(i)) / length;
-      const float weight = t < 1 ? sparseKernel(t) : 0;
+      const float weight = sparseKernel(t);
       const Eigen::Vector3f from_hit = offset(nearest.point(i), p);
       mass += weight;
       sum += weight * from_hit;

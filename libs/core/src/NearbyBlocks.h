@@ -66,17 +66,20 @@ class NearbyBlocks {
   std::vector<HalfWidths> by_length_;
 };
 
-/// The ranges of points in these blocks around a block of the window, z-major by block.
+/// The ranges of points in these blocks around a block of the window, z-major by block. Free of
+/// branches inside: which rows hold points so near cannot be foreseen.
 inline void listRanges(const BlockWindow& window, const BlockIndex& block,
                        const HalfWidths& half_widths, std::vector<PointRange>& ranges) {
-  ranges.clear();
-  for (const BlockWindow::Row& row : window.rowsAround(block.y, block.z)) {
+  const std::vector<BlockWindow::Row>& rows = window.rowsAround(block.y, block.z);
+  ranges.resize(rows.size() + 1);
+  PointRange* next = ranges.data();
+  for (const BlockWindow::Row& row : rows) {
+    // A row that does not matter, −1 wide, begins behind its end.
     const int half_width = half_widths[row.offset];
-    if (half_width < 0) continue;
-    const std::uint32_t begin = row.starts[block.x - half_width];
-    const std::uint32_t end = row.starts[block.x + half_width + 1];
-    if (begin < end) ranges.push_back({begin, end});
+    *next = {row.starts[block.x - half_width], row.starts[block.x + half_width + 1]};
+    next += next->first < next->last ? 1 : 0;
   }
+  ranges.resize(static_cast<std::size_t>(next - ranges.data()));
 }
 
 }  // namespace csom::detail

@@ -31,6 +31,13 @@ constexpr double kMostFreeSteps = 1 << 13;
 /// Free samples of one scan, before down-sampling: some gigabytes.
 constexpr double kMostFreeSamples = 1 << 27;
 
+/// Relative distance from a limit that no rounding bridges.
+constexpr double kMargin = 1e-9;
+
+double squareOf(double v) {
+  return v * v;
+}
+
 void checkSizes(const Scan& scan, int classes) {
   const auto fail = [&](const char* what, std::size_t size, std::size_t expected) {
     throw std::invalid_argument("scan of " + std::to_string(scan.points.size()) + " points has " +
@@ -69,7 +76,13 @@ class Preparation {
         reach_(kReachCells * (options.ds_resolution > 0
                                   ? std::min(options.ds_resolution, options.resolution)
                                   : options.resolution)),
-        longest_beam_(longestBeam()) {}
+        longest_beam_(longestBeam()),
+        nearest_squared_(options.min_range * options.min_range * (1 + kMargin)),
+        farthest_squared_(squareOf(options.max_range > 0
+                                       ? std::min(options.max_range, longest_beam_)
+                                       : longest_beam_) *
+                          (1 - kMargin)),
+        plain_reach_(plainReach()) {}
 
   PreparedScan run() {
     out_.block_depth = options_.method == Method::SCsm ? 1 : options_.block_depth;
@@ -109,6 +122,28 @@ class Preparation {
     return std::nullopt;
   }
 
+  /// Whether a point is so far from every limit that reasonToReject() need not be asked: nearly all
+  /// are, and this costs no square root.
+  bool isFarFromLimits(const Eigen::Vector3f& point) const {
+    const Eigen::Vector3d p = point.cast<double>();
+    const double squared = p.squaredNorm();
+    return squared > nearest_squared_ && squared < farthest_squared_ &&
+           p.cwiseAbs().maxCoeff() < plain_reach_;
+  }
+  bool isPlain(std::size_t i) const {
+    return !scan_.isSoft() && scan_.labels[i] < options_.number_of_classes &&
+           isFarFromLimits(scan_.points[i]);
+  }
+
+  /// How far a point may be from the origin along an axis and surely lie in the grid; 0 if none
+  /// may.
+  double plainReach() const {
+    if (!origin_is_finite_ || !origin_is_inside_) return 0;
+    const double to_border =
+        grid_.resolution() * (kMaxVoxelIndex - 1) - scan_.origin.cwiseAbs().maxCoeff();
+    return std::min(reach_, std::max(0.0, to_border));
+  }
+
   double longestBeam() const {
     switch (options_.free_space) {
       case FreeSpace::Sampled:
@@ -129,7 +164,7 @@ class Preparation {
                            [&](std::size_t begin, std::size_t end) {
                              std::size_t rejected_here = 0;
                              for (std::size_t i = begin; i < end; ++i) {
-                               const auto reason = reasonToReject(i);
+                               const auto reason = isPlain(i) ? std::nullopt : reasonToReject(i);
                                reasons[i] = reason ? static_cast<std::uint8_t>(*reason) : kAccepted;
                                rejected_here += reason ? 1 : 0;
                              }
@@ -293,6 +328,10 @@ class Preparation {
   bool origin_is_inside_;
   double reach_;         ///< of a scan along each axis [m]; see kReachCells
   double longest_beam_;  ///< [m]
+  // Of isFarFromLimits().
+  double nearest_squared_;
+  double farthest_squared_;
+  double plain_reach_;
   PreparedScan out_;
 };
 

@@ -87,11 +87,30 @@ std::optional<ClassId> SurfaceClasses::onlyClass() const {
   return same ? std::optional<ClassId>(first) : std::nullopt;
 }
 
-const std::vector<ClassId>& SurfaceClasses::sum(const LaneGroup& group) {
+CSOM_EVERY_PROCESSOR
+void SurfaceClasses::divideSums(const LaneSums& sums, const std::array<float, kLanes>& occupied,
+                                double scale, CountLanes* counts) {
+  MassLanes total{};
+  for (const ClassId k : sums.classes())
+    if (k != kFreeClass) total += sums.mass(k);
+  const MassLanes mass = __builtin_convertvector(load(occupied.data()), MassLanes) * scale;
+  const MassLanes share = total > 0.0 ? mass / total : MassLanes{};
+  for (const ClassId k : sums.classes())
+    if (k != kFreeClass) toCounts(sums.mass(k) * share, *counts++);
+}
+
+void SurfaceClasses::divide(const LaneGroup& group, const std::array<float, kLanes>& occupied,
+                            double scale, std::vector<ClassId>& classes,
+                            std::vector<CountLanes>& counts) {
   sums_.reset();
   const auto add = kernel_ == Kernel::Sparse ? addSparse : addLinear;
   add(hits_, selected_, scores_, group, block_, length_, sums_);
-  return sums_.finish();
+  sums_.finish();
+  for (const ClassId k : sums_.classes())
+    if (k != kFreeClass) classes.push_back(k);  // samples of free space among soft scores
+  const std::size_t before = counts.size();
+  counts.resize(classes.size());
+  divideSums(sums_, occupied, scale, counts.data() + before);
 }
 
 }  // namespace csom::detail

@@ -6,11 +6,13 @@
 #include <csom/core/Options.h>
 #include <csom/core/types.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "Counts.h"
 #include "KernelMass.h"
 #include "LaneSums.h"
 #include "PointColumns.h"
@@ -35,10 +37,10 @@ class SurfaceClasses {
   void select(const BlockPlace& block, float length);
   /// If all hits near the block have one label, that.
   std::optional<ClassId> onlyClass() const;
-  /// Sums for the voxels of a group of the block; the classes with any mass, ascending. May hold
-  /// kFreeClass where there are scores.
-  const std::vector<ClassId>& sum(const LaneGroup& group);
-  double mass(ClassId k, std::size_t lane) const { return sums_.mass(k, lane); }
+  /// Divides mass of the voxels of a group of the block among the classes k ≥ 1 by m^k, as counts;
+  /// appends the classes with any mass, ascending, and their counts.
+  void divide(const LaneGroup& group, const std::array<float, kLanes>& occupied, double scale,
+              std::vector<ClassId>& classes, std::vector<CountLanes>& counts);
 
  private:
   /// As PointColumns, and how far each hit reaches [voxels].
@@ -48,6 +50,8 @@ class SurfaceClasses {
     std::vector<float> reach;
   };
 
+  static void divideSums(const LaneSums& sums, const std::array<float, kLanes>& occupied,
+                         double scale, CountLanes* counts);
   static std::size_t selectNear(const Hits& hits, std::size_t size, const BlockPlace& block,
                                 float length, std::uint32_t* selected);
   static void addSparse(const Hits& hits, const std::vector<std::uint32_t>& selected,

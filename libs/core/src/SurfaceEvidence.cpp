@@ -61,7 +61,7 @@ CSOM_INLINE void addPlane(const LocalSurface& s, float px, float py, float pz, R
       const Lanes along_normal = nx_dx + ny_dy_nz_dz;
       const Lanes squared = dx_dx + (dy * dy + dz * dz) - along_normal * along_normal;
       const Lanes t = squareRoot(squared > 0.0F ? squared : Lanes{}) * inverse_length;
-      const Lanes mass = t < 1.0F ? sparseKernel(t) : Lanes{};
+      const Lanes mass = sparseKernel(t);
       const Lanes off = along_normal > 0.0F ? along_normal : -along_normal;
       const auto row = static_cast<std::size_t>(z * kChunkSide + y);
       const Lanes vote = along_normal <= s.half_thickness_of_own_side ? mass : Lanes{};
@@ -85,7 +85,7 @@ CSOM_INLINE void addBall(const LocalSurface& s, float px, float py, float pz, Ad
     for (int y = ys.first; y <= ys.last; ++y) {
       const float dy = static_cast<float>(y) + 0.5F - py;
       const Lanes t = squareRoot(dx_dx + (dy * dy + dz * dz)) * inverse_length;
-      add(static_cast<std::size_t>(z * kChunkSide + y), t < 1.0F ? sparseKernel(t) : Lanes{});
+      add(static_cast<std::size_t>(z * kChunkSide + y), sparseKernel(t));
     }
   }
 }

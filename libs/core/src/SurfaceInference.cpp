@@ -12,6 +12,8 @@
 
 #include "ChunkTasks.h"
 #include "ClassMass.h"
+#include "Counts.h"
+#include "FixedPointLanes.h"
 #include "KernelMass.h"
 #include "Parallel.h"
 #include "SurfaceClasses.h"
@@ -43,6 +45,11 @@ struct AxisReach {
   int first;  ///< chunks
   int last;
 };
+
+CSOM_EVERY_PROCESSOR
+void countsOf(const std::array<float, kLanes>& mass, double scale, CountLanes& counts) {
+  toCounts(__builtin_convertvector(load(mass.data()), MassLanes) * scale, counts);
+}
 
 class SurfaceInference {
  public:
@@ -86,7 +93,8 @@ class SurfaceInference {
     SurfaceClasses classes_of_hits;
     VoxelRuns runs;
     std::vector<double> class_mass;
-    std::vector<ClassId> classes;
+    std::vector<ClassId> classes;    ///< of a group of voxels
+    std::vector<CountLanes> counts;  ///< of each of them
   };
 
   float inVoxels(double length) const {
@@ -167,38 +175,53 @@ class SurfaceInference {
   }
 
   bool fillBlock(const BlockIndex& block, Scratch& scratch) const {
-    const SurfaceEvidence& evidence = scratch.evidence;
     const int side = block_side_;
     const std::size_t lanes = side > 1 ? kLanes : 1;
     bool any = false;
     bool selected = false;
-    std::optional<ClassId> only;
     for (const LaneGroup& group : groups_) {
       std::array<int, kLanes> voxel{};
-      bool occupied = false;
-      bool free = false;
+      std::array<float, kLanes> occupied{};
+      std::array<float, kLanes> free{};
+      float any_occupied = 0;
+      float any_free = 0;
       for (std::size_t lane = 0; lane < lanes; ++lane) {
         const VoxelIndex& v = group.voxel[lane];
         voxel[lane] =
             indexInChunk({block.x * side + v.x, block.y * side + v.y, block.z * side + v.z});
-        occupied = occupied || evidence.occupied(voxel[lane]) > 0;
-        free = free || evidence.free(voxel[lane]) > 0;
+        any_occupied += occupied[lane] = scratch.evidence.occupied(voxel[lane]);
+        any_free += free[lane] = scratch.evidence.free(voxel[lane]);
       }
-      if (!occupied && !free) continue;
+      if (any_occupied + any_free <= 0) continue;
       any = true;
-      if (occupied && !selected) {
+      if (any_occupied > 0 && !selected) {
         scratch.classes_of_hits.select(placeOf(block), lengthOf(block, scratch));
-        only = scratch.classes_of_hits.onlyClass();
         selected = true;
       }
-      scratch.classes.assign(1, kFreeClass);
-      if (occupied && only) scratch.classes.push_back(*only);
-      if (occupied && !only)
-        for (const ClassId k : scratch.classes_of_hits.sum(group))
-          if (k != kFreeClass) scratch.classes.push_back(k);
-      for (std::size_t lane = 0; lane < lanes; ++lane) store(voxel[lane], lane, only, scratch);
+      count(group, free, occupied, any_occupied > 0, scratch);
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        scratch.runs.add(voxel[lane], scratch.classes.data(), scratch.classes.size(),
+                         [&](std::size_t i) { return scratch.counts[i][lane]; });
     }
     return any;
+  }
+
+  /// (S4) and (S5) for the voxels of a group: counts by class. Where all hits are of one class, no
+  /// sums are needed.
+  void count(const LaneGroup& group, const std::array<float, kLanes>& free,
+             const std::array<float, kLanes>& occupied, bool any_occupied, Scratch& scratch) const {
+    scratch.classes.assign(1, kFreeClass);
+    scratch.counts.resize(1);
+    countsOf(free, options_.kernel_scale, scratch.counts[0]);
+    if (!any_occupied) return;
+    if (const std::optional<ClassId> only = scratch.classes_of_hits.onlyClass()) {
+      scratch.classes.push_back(*only);
+      scratch.counts.resize(2);
+      countsOf(occupied, options_.kernel_scale, scratch.counts[1]);
+    } else {
+      scratch.classes_of_hits.divide(group, occupied, options_.kernel_scale, scratch.classes,
+                                     scratch.counts);
+    }
   }
 
   BlockPlace placeOf(const BlockIndex& block) const {
@@ -216,24 +239,6 @@ class SurfaceInference {
       entropy = classEntropy(scratch.class_mass);
     }
     return inVoxels(static_cast<double>(kernelLength(entropy, options_)));
-  }
-
-  /// (S4) and (S5). Where all hits are of one class, no sums are needed.
-  void store(int voxel, std::size_t lane, const std::optional<ClassId>& only,
-             Scratch& scratch) const {
-    const double scale = options_.kernel_scale;
-    const double free = scale * static_cast<double>(scratch.evidence.free(voxel));
-    const double occupied = scale * static_cast<double>(scratch.evidence.occupied(voxel));
-    const SurfaceClasses& classes = scratch.classes_of_hits;
-    double mass = 0;
-    if (!only)
-      for (std::size_t i = 1; i < scratch.classes.size(); ++i)
-        mass += classes.mass(scratch.classes[i], lane);
-    const double share = mass > 0 ? occupied / mass : 0;
-    scratch.runs.add(voxel, scratch.classes.data(), scratch.classes.size(), [&](ClassId k) {
-      if (k == kFreeClass) return toCount(free);
-      return toCount(only ? occupied : share * classes.mass(k, lane));
-    });
   }
 
   const PreparedScan& scan_;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <csom/core/CountIncrements.h>
-#include <csom/core/DirichletVoxel.h>
 #include <csom/core/Grid.h>
 
 #include <algorithm>
@@ -13,25 +12,18 @@
 
 namespace csom::detail {
 
-/// Kernel mass, not negative, rounded once to the quantum. Free of branches: whether a class has
-/// any mass in a voxel cannot be foreseen.
-inline std::uint32_t toCount(double mass) {
-  const double quanta = mass / kCountQuantum + 0.5;
-  return static_cast<std::uint32_t>(
-      static_cast<std::int64_t>(std::min(quanta, static_cast<double>(kMaxCount))));
-}
-
 class VoxelRuns {
  public:
   /// Adds the counts of a voxel for `size` classes in ascending order, those that are not 0:
-  /// countOf(class). A voxel comes once.
+  /// countOf(i) for the i-th class. A voxel comes once. Free of branches inside: whether a class
+  /// has any mass in a voxel cannot be foreseen.
   template <class CountOf>
   void add(int index_in_chunk, const ClassId* classes, std::size_t size, CountOf&& countOf) {
     if (entries_.size() < used_ + size) entries_.resize(2 * (used_ + size));
     const auto voxel = static_cast<std::uint16_t>(index_in_chunk);
     std::size_t end = used_;
     for (std::size_t i = 0; i < size; ++i) {
-      const std::uint32_t count = countOf(classes[i]);
+      const std::uint32_t count = countOf(i);
       entries_[end] = {voxel, classes[i], count};
       end += count > 0 ? 1 : 0;
     }
