@@ -37,11 +37,18 @@ std::vector<CountIncrement> randomIncrements(Random& random, int size) {
 
 Reference contentOf(const Chunk& chunk) {
   Reference content;
-  chunk.forEachKnown([&](int voxel) {
-    const Chunk::Entries entries = chunk.at(voxel);
+  std::vector<int> known;
+  chunk.forEachKnown([&](int voxel) { known.push_back(voxel); });
+  std::vector<int> visited;
+  chunk.forEachVoxel([&](int voxel, const Chunk::Entries& entries) {
+    visited.push_back(voxel);
+    EXPECT_EQ(entries.counts, chunk.at(voxel).counts);
+    EXPECT_EQ(entries.classes, chunk.at(voxel).classes);
+    EXPECT_EQ(entries.size, chunk.at(voxel).size);
     EXPECT_GT(entries.size, 0);
     for (int i = 0; i < entries.size; ++i) content[{voxel, entries.classes[i]}] = entries.counts[i];
   });
+  EXPECT_EQ(visited, known);
   return content;
 }
 

@@ -95,8 +95,7 @@ Chunk::Entries Chunk::at(int index_in_chunk) const {
 std::vector<CountIncrement> Chunk::toIncrements() const {
   std::vector<CountIncrement> out;
   out.reserve(header().entry_count);
-  forEachKnown([&](int voxel) {
-    const Entries entries = at(voxel);
+  forEachVoxel([&](int voxel, const Entries& entries) {
     for (int i = 0; i < entries.size; ++i)
       out.push_back({static_cast<std::uint16_t>(voxel), entries.classes[i], entries.counts[i]});
   });

@@ -17,11 +17,6 @@ const char* toString(VoxelState state) {
   return "invalid";
 }
 
-VoxelState DirichletVoxel::state() const {
-  if (!known()) return VoxelState::Unknown;
-  return mostLikelyClass() == kFreeClass ? VoxelState::Free : VoxelState::Occupied;
-}
-
 ClassId DirichletVoxel::mostLikelyClass() const {
   if (!known()) return kFreeClass;
   if (unlabelled_ != 0) return mostLikelyLabel();

@@ -2,6 +2,7 @@
 // Coordinates of training points, eight at a time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 
@@ -28,6 +29,13 @@ CSOM_INLINE Lanes load(const float* values) {
   Lanes lanes;
   std::memcpy(&lanes, values, sizeof lanes);
   return lanes;
+}
+
+/// True if no lane of a condition holds.
+CSOM_INLINE bool isNone(const IntLanes& condition) {
+  std::array<std::uint64_t, sizeof(IntLanes) / sizeof(std::uint64_t)> words;
+  std::memcpy(words.data(), &condition, sizeof words);
+  return (words[0] | words[1] | words[2] | words[3]) == 0;
 }
 
 /// Distance along one axis from the interval center ± half, 0 inside.

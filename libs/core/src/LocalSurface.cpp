@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "BlockWindow.h"
@@ -64,6 +65,7 @@ void offerNear(const detail::PointColumns& points, const detail::PointRange& ran
     const Lanes dz = detail::toFloat(detail::load(points.z.data() + first) - points.z[p]) * kVoxels;
     const Lanes squared = dx * dx + dy * dy + dz * dz;
     const detail::IntLanes near = squared < nearest.limitSquared();
+    if (detail::isNone(near)) continue;
     const auto count = std::min<std::uint32_t>(kLanes, range.last - first);
     std::array<std::uint32_t, kLanes> lanes;  // free of branches: which are near cannot be foreseen
     std::size_t found = 0;
@@ -81,11 +83,55 @@ void offerNear(const detail::PointColumns& points, const detail::PointRange& ran
 
 /// Neighbourhoods of up to eight hits, a lane each, that wait for their surfaces.
 struct Neighbourhoods {
+  using OfLanes = std::array<float, kLanes>;
+
   std::size_t size = 0;
   std::array<std::uint32_t, kLanes> point{};
-  std::array<float, kLanes> spacing{};  ///< s, in voxels
-  detail::LaneCovariance covariance;
+  OfLanes spacing{};         ///< s, in voxels
+  OfLanes inverse_length{};  ///< of the kernel of the covariance
+  // The nearest hits of each, nearest first: their offsets [voxels] and squared distances. Those of
+  // a lane that has fewer are out of reach.
+  std::size_t neighbours = 0;
+  std::array<OfLanes, NearestHits::kMost> x{}, y{}, z{}, squared{};
 };
+
+/// Covariances of the hits and the nearest to them.
+CSOM_EVERY_PROCESSOR
+void covariancesOf(const Neighbourhoods& waiting, detail::LaneCovariance& covariance) {
+  using detail::load;
+  const Lanes inverse_length = load(waiting.inverse_length.data());
+  Lanes mass = Lanes{} + 1;
+  Lanes x{}, y{}, z{}, xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
+  for (std::size_t n = 0; n < waiting.neighbours; ++n) {
+    const Lanes t = detail::squareRoot(load(waiting.squared[n].data())) * inverse_length;
+    const Lanes weight = sparseKernel(t);
+    const Lanes dx = load(waiting.x[n].data());
+    const Lanes dy = load(waiting.y[n].data());
+    const Lanes dz = load(waiting.z[n].data());
+    const Lanes wx = weight * dx;
+    const Lanes wy = weight * dy;
+    const Lanes wz = weight * dz;
+    mass += weight;
+    x += wx;
+    y += wy;
+    z += wz;
+    xx += wx * dx;
+    yy += wy * dy;
+    zz += wz * dz;
+    xy += wx * dy;
+    xz += wx * dz;
+    yz += wy * dz;
+  }
+  const Lanes mx = x / mass;
+  const Lanes my = y / mass;
+  const Lanes mz = z / mass;
+  covariance.xx = xx / mass - mx * mx;
+  covariance.yy = yy / mass - my * my;
+  covariance.zz = zz / mass - mz * mz;
+  covariance.xy = xy / mass - mx * my;
+  covariance.xz = xz / mass - mx * mz;
+  covariance.yz = yz / mass - my * mz;
+}
 
 /// A scan without its free samples.
 struct Hits {
@@ -204,12 +250,6 @@ class SurfaceSearch {
                                         : radius_;
   }
 
-  /// From one point to another [voxels].
-  Eigen::Vector3f offset(std::uint32_t to, std::uint32_t from) const {
-    return {difference(points_.x, to, from), difference(points_.y, to, from),
-            difference(points_.z, to, from)};
-  }
-
   /// From a hit to the centre of the voxel that it lies in [voxels].
   Eigen::Vector3f toVoxelCenter(std::uint32_t p) const {
     const auto along = [](detail::FixedPoint coordinate) {
@@ -219,6 +259,7 @@ class SurfaceSearch {
     return {along(points_.x[p]), along(points_.y[p]), along(points_.z[p])};
   }
 
+  /// From one point to another along an axis [voxels].
   static float difference(const std::vector<detail::FixedPoint>& axis, std::uint32_t a,
                           std::uint32_t b) {
     constexpr float kVoxels = 1.0F / detail::kFixedPointVoxel;
@@ -235,40 +276,25 @@ class SurfaceSearch {
       return std::sqrt(nearest.squared(n - 1) * static_cast<float>(M_PI) /
                        (static_cast<float>(n) + 0.5F));
     };
-    waiting.point[waiting.size] = p;
-    waiting.spacing[waiting.size] = spacingTo(kSpacingNeighbour);
-    setCovariance(p, nearest, kCovarianceReach * spacingTo(nearest.size()), waiting);
-    ++waiting.size;
-  }
-
-  /// Of the hit itself and the nearest to it.
-  void setCovariance(std::uint32_t p, const NearestHits& nearest, float length,
-                     Neighbourhoods& waiting) const {
-    float mass = 1;
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    Eigen::Matrix3f squares = Eigen::Matrix3f::Zero();
-    for (std::size_t i = 0; i < nearest.size(); ++i) {
-      const float t = std::sqrt(nearest.squared(i)) / length;
-      const float weight = sparseKernel(t);
-      const Eigen::Vector3f from_hit = offset(nearest.point(i), p);
-      mass += weight;
-      sum += weight * from_hit;
-      squares += weight * from_hit * from_hit.transpose();
+    const std::size_t lane = waiting.size++;
+    waiting.point[lane] = p;
+    waiting.spacing[lane] = spacingTo(kSpacingNeighbour);
+    waiting.inverse_length[lane] = 1 / (kCovarianceReach * spacingTo(nearest.size()));
+    for (; waiting.neighbours < nearest.size(); ++waiting.neighbours)
+      waiting.squared[waiting.neighbours].fill(std::numeric_limits<float>::max());
+    for (std::size_t n = 0; n < nearest.size(); ++n) {
+      waiting.x[n][lane] = difference(points_.x, nearest.point(n), p);
+      waiting.y[n][lane] = difference(points_.y, nearest.point(n), p);
+      waiting.z[n][lane] = difference(points_.z, nearest.point(n), p);
+      waiting.squared[n][lane] = nearest.squared(n);
     }
-    const Eigen::Vector3f mean = sum / mass;
-    const Eigen::Matrix3f covariance = squares / mass - mean * mean.transpose();
-    const std::size_t lane = waiting.size;
-    waiting.covariance.xx[lane] = covariance(0, 0);
-    waiting.covariance.yy[lane] = covariance(1, 1);
-    waiting.covariance.zz[lane] = covariance(2, 2);
-    waiting.covariance.xy[lane] = covariance(0, 1);
-    waiting.covariance.xz[lane] = covariance(0, 2);
-    waiting.covariance.yz[lane] = covariance(1, 2);
   }
 
   /// The surfaces of all hits that wait.
   void setSurfaces(Neighbourhoods& waiting) {
-    const detail::PrincipalAxes axes = detail::principalAxes(waiting.covariance);
+    detail::LaneCovariance covariance;
+    covariancesOf(waiting, covariance);
+    const detail::PrincipalAxes axes = detail::principalAxes(covariance);
     for (std::size_t lane = 0; lane < waiting.size; ++lane) {
       const auto variance = [&](std::size_t i) { return axes.variance[i][lane]; };
       const Eigen::Vector3f normal(axes.normal[0][lane], axes.normal[1][lane],
@@ -290,6 +316,7 @@ class SurfaceSearch {
       setLength(waiting.spacing[lane], covered ? plane_spacing_limit_ : spacing_limit_, surface);
     }
     waiting.size = 0;
+    waiting.neighbours = 0;
   }
 
   /// `spacing` of the hits, and the widest that a kernel spans.

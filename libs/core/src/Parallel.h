@@ -40,24 +40,34 @@ void workOnThreads(std::size_t size, int threads, const Work& work) {
 #else
 
 template <class Work>
-void workOnThreads(std::size_t size, int threads, const Work& work) {
-  // More threads than processors only on demand: TBB refuses them otherwise.
-  std::optional<tbb::global_control> more_threads;
-  if (threads > tbb::this_task_arena::max_concurrency())
-    more_threads.emplace(tbb::global_control::max_allowed_parallelism,
-                         static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : threads);
-  arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, size),
-        [&](const tbb::blocked_range<std::size_t>& range) { work(range.begin(), range.end()); });
-  });
+void workOnThreads(std::size_t size, const Work& work) {
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, size),
+      [&](const tbb::blocked_range<std::size_t>& range) { work(range.begin(), range.end()); });
 }
 
 #endif
 
+/// Calls work() with threads at hand for the loops in it: they are called up once, not by each
+/// loop. `threads` as in Options: 1 stays on the calling thread, 0 takes all processors.
+template <class Work>
+void withThreads([[maybe_unused]] int threads, const Work& work) {
+#ifndef __SANITIZE_THREAD__
+  if (threads != 1) {
+    // More threads than processors only on demand: TBB refuses them otherwise.
+    std::optional<tbb::global_control> more_threads;
+    if (threads > tbb::this_task_arena::max_concurrency())
+      more_threads.emplace(tbb::global_control::max_allowed_parallelism,
+                           static_cast<std::size_t>(threads));
+    tbb::task_arena(threads == 0 ? tbb::task_arena::automatic : threads).execute(work);
+    return;
+  }
+#endif
+  work();
+}
+
 /// Calls work(begin, end) for ranges that cover [0, size). `threads` as in Options: 1 stays on the
-/// calling thread, 0 takes all processors.
+/// calling thread, others are those of withThreads() around the call, or else all processors.
 template <class Work>
 void parallelRanges(std::size_t size, int threads, const Work& work) {
   if (size == 0) return;
@@ -65,7 +75,11 @@ void parallelRanges(std::size_t size, int threads, const Work& work) {
     work(std::size_t{0}, size);
     return;
   }
+#ifdef __SANITIZE_THREAD__
   workOnThreads(size, threads, work);
+#else
+  workOnThreads(size, work);
+#endif
 }
 
 }  // namespace csom::detail

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "Parallel.h"
 #include "VoxelTraversal.h"
 
 namespace csom {
@@ -46,15 +47,17 @@ SemanticMap::SemanticMap(const Options& options) : options_(options), grid_(opti
 
 ScanReport SemanticMap::insert(const Scan& scan) {
   ScanReport report;
-  Stopwatch watch;
-  const PreparedScan prepared = prepareScan(scan, options_, report);
-  report.prepare_ms = watch.lap();
-  const ScanIncrements kernel_mass = inferIncrements(prepared, options_, report);
-  const ScanIncrements free_space = castFreeSpace(prepared, options_, report);
-  report.infer_ms = watch.lap();
-  store_.add(kernel_mass, options_.threads);
-  store_.add(free_space, options_.threads);
-  report.commit_ms = watch.lap();
+  detail::withThreads(options_.threads, [&] {
+    Stopwatch watch;
+    const PreparedScan prepared = prepareScan(scan, options_, report);
+    report.prepare_ms = watch.lap();
+    const ScanIncrements kernel_mass = inferIncrements(prepared, options_, report);
+    const ScanIncrements free_space = castFreeSpace(prepared, options_, report);
+    report.infer_ms = watch.lap();
+    store_.add(kernel_mass, options_.threads);
+    store_.add(free_space, options_.threads);
+    report.commit_ms = watch.lap();
+  });
   return report;
 }
 
@@ -73,18 +76,6 @@ void SemanticMap::merge(const SemanticMap& other) {
 
 void SemanticMap::clear() {
   store_.clear();
-}
-
-DirichletVoxel SemanticMap::view(const Chunk* chunk, int index_in_chunk) const {
-  const auto unlabelled = static_cast<ClassId>(options_.unlabelled_class_id);
-  if (chunk == nullptr) return {options_.number_of_classes, options_.prior, unlabelled};
-  const Chunk::Entries entries = chunk->at(index_in_chunk);
-  return {options_.number_of_classes,
-          options_.prior,
-          unlabelled,
-          entries.classes,
-          entries.counts,
-          entries.size};
 }
 
 DirichletVoxel SemanticMap::voxel(const VoxelIndex& index) const {

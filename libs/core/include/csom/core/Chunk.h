@@ -73,6 +73,10 @@ class Chunk {
     }
   }
 
+  /// Calls visit(index_in_chunk, Entries) for every known voxel in ascending order.
+  template <class Visitor>
+  void forEachVoxel(Visitor&& visit) const;
+
   /// All entries as increments.
   std::vector<CountIncrement> toIncrements() const;
 
@@ -96,6 +100,27 @@ class Chunk {
   mutable std::atomic<std::uint32_t> references_{0};
   std::uint32_t record_size_;
 };
+
+template <class Visitor>
+void Chunk::forEachVoxel(Visitor&& visit) const {
+  const Header& h = header();
+  const std::uint32_t* const all_counts = counts();
+  const std::uint8_t* const all_classes = classes();
+  const std::uint16_t* next_voxel = firstEntries();
+  for (std::size_t word = 0; word < h.known.size(); ++word) {
+    const bool is_last = word + 1 == h.known.size();
+    const std::uint32_t word_end = is_last ? h.entry_count : h.word_entries[word + 1];
+    std::uint32_t begin = h.word_entries[word];
+    for (std::uint64_t bits = h.known[word]; bits != 0;) {
+      const int voxel = static_cast<int>(word) * 64 + __builtin_ctzll(bits);
+      bits &= bits - 1;
+      ++next_voxel;
+      const std::uint32_t end = bits != 0 ? h.word_entries[word] + *next_voxel : word_end;
+      visit(voxel, Entries{all_classes + begin, all_counts + begin, static_cast<int>(end - begin)});
+      begin = end;
+    }
+  }
+}
 
 /// Shared ownership of a chunk. Copying costs one atomic increment.
 class ChunkRef {

@@ -44,7 +44,13 @@ class DirichletVoxel {
 
   /// True if any class has a count.
   bool known() const { return size_ > 0; }
-  VoxelState state() const;
+  VoxelState state() const {
+    if (!known()) return VoxelState::Unknown;
+    // Nearly always so: nothing speaks for free, or nothing else.
+    if (classes_[0] != kFreeClass) return VoxelState::Occupied;
+    if (size_ == 1) return VoxelState::Free;
+    return mostLikelyClass() == kFreeClass ? VoxelState::Free : VoxelState::Occupied;
+  }
   /// The class of highest probability (ties: the lower id); kFreeClass if unknown. Where points
   /// without a label are a class of their own, their evidence counts for the best other occupied
   /// class, so that this one is returned although its own probability may be lower.

@@ -94,7 +94,17 @@ class SemanticMap {
   void addChunkRecord(const ChunkIndex& index, const void* bytes, std::size_t size);
 
  private:
-  DirichletVoxel view(const Chunk* chunk, int index_in_chunk) const;
+  DirichletVoxel view(const Chunk::Entries& entries) const {
+    return {options_.number_of_classes,
+            options_.prior,
+            static_cast<ClassId>(options_.unlabelled_class_id),
+            entries.classes,
+            entries.counts,
+            entries.size};
+  }
+  DirichletVoxel view(const Chunk* chunk, int index_in_chunk) const {
+    return view(chunk == nullptr ? Chunk::Entries{} : chunk->at(index_in_chunk));
+  }
 
   Options options_;
   Grid grid_;
@@ -107,8 +117,9 @@ template <class Visitor>
 void SemanticMap::forEachVoxel(Visitor&& visit) const {
   for (const auto& [index, chunk] : store_.sorted()) {
     const ChunkIndex origin = index;
-    chunk->forEachKnown(
-        [&](int in_chunk) { visit(voxelOfChunk(origin, in_chunk), view(chunk, in_chunk)); });
+    chunk->forEachVoxel([&](int in_chunk, const Chunk::Entries& entries) {
+      visit(voxelOfChunk(origin, in_chunk), view(entries));
+    });
   }
 }
 
@@ -119,11 +130,11 @@ void SemanticMap::forEachVoxelInBox(const VoxelBox& box, Visitor&& visit) const 
   };
   for (const auto& [index, chunk] : store_.sorted(chunkOf(box.min), chunkOf(box.max))) {
     const ChunkIndex origin = index;
-    chunk->forEachKnown([&, in_chunk_of = chunk](int in_chunk) {
+    chunk->forEachVoxel([&](int in_chunk, const Chunk::Entries& entries) {
       const VoxelIndex v = voxelOfChunk(origin, in_chunk);
       if (inside(v.x, box.min.x, box.max.x) && inside(v.y, box.min.y, box.max.y) &&
           inside(v.z, box.min.z, box.max.z))
-        visit(v, view(in_chunk_of, in_chunk));
+        visit(v, view(entries));
     });
   }
 }
