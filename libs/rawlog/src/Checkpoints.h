@@ -28,6 +28,7 @@ class Checkpoints {
 
   bool voxelsInMemory() const { return !in_parts_; }
   std::size_t scansCommitted() const { return store_->scanCount(); }
+  std::size_t chunksCommitted() const { return store_->chunkCount(); }
   std::unique_ptr<MapStore> release() { return std::move(store_); }
   /// Removes the file if nothing is lost with it.
   void discardIfEmpty();

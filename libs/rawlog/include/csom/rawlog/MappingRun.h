@@ -40,7 +40,10 @@ struct MappingProgress {
   std::size_t scans = 0;    ///< inserted
   std::size_t points_rejected = 0;
   std::size_t observations_refused = 0;
-  const SemanticMap& map;  ///< as it is now. Its figures are counted when they are asked for
+  /// As it is now, or the part of it that is not on the disk yet. Its figures are counted when they
+  /// are asked for.
+  const SemanticMap& map;
+  std::size_t chunks_on_disk = 0;  ///< where voxels take more than CheckpointRequest::max_memory
 };
 
 struct MappedLog {
