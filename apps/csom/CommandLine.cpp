@@ -5,9 +5,8 @@
 #include <fstream>
 
 namespace csom {
-namespace {
 
-std::string quoted(const std::string& word) {
+std::string shellQuoted(const std::string& word) {
   constexpr char kPlain[] =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:=,+@%";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
@@ -16,12 +15,10 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-}  // namespace
-
 std::string commandLine() {
   std::ifstream file("/proc/self/cmdline");
   std::string line, word;
-  while (std::getline(file, word, '\0')) line += (line.empty() ? "" : " ") + quoted(word);
+  while (std::getline(file, word, '\0')) line += (line.empty() ? "" : " ") + shellQuoted(word);
   return line;
 }
 

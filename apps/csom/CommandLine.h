@@ -9,4 +9,7 @@ namespace csom {
 /// Quoted for a shell; empty if the system does not tell.
 std::string commandLine();
 
+/// A word as one would type it in a shell.
+std::string shellQuoted(const std::string& word);
+
 }  // namespace csom

@@ -4,8 +4,12 @@
 
 #include <csom/core/Error.h>
 #include <csom/io/OutputFile.h>
+#include <csom/io/TextParser.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <vector>
 
 namespace csom {
@@ -25,6 +29,28 @@ std::vector<fs::path> missingFolders(const fs::path& path) {
   if (!fs::is_directory(folder, error))
     throw FileError(path.string(), "cannot be a folder: " + folder.string() + " is a file");
   return missing;
+}
+
+constexpr char kStaging[] = "unfinished-";
+constexpr char kNewMap[] = "unfinished.csom.tmp";
+
+/// The number of the process that a name ends with; 0 if it does not begin with `prefix`.
+int ownerOf(const std::string& name, const std::string& prefix) {
+  if (name.rfind(prefix, 0) != 0) return 0;
+  int owner = 0;
+  return detail::parseNumber(std::string_view(name).substr(prefix.size()), owner) ? owner : 0;
+}
+
+/// A process that was killed could not do it itself.
+void removeWhatTheDeadLeft(const fs::path& folder) {
+  std::error_code ignored;
+  std::vector<fs::path> abandoned;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    const int owner = std::max(ownerOf(name, kStaging), ownerOf(name, kNewMap));
+    if (owner > 0 && ::kill(owner, 0) != 0 && errno == ESRCH) abandoned.push_back(entry.path());
+  }
+  for (const fs::path& path : abandoned) fs::remove_all(path, ignored);
 }
 
 }  // namespace
@@ -49,11 +75,12 @@ OutputFolder::OutputFolder(const std::string& path, const std::vector<std::strin
 }
 
 StagedResults::StagedResults(const OutputFolder& target)
-    : target_(target), path_(target.path() / ("unfinished-" + std::to_string(::getpid()))) {
+    : target_(target), path_(target.path() / (kStaging + std::to_string(::getpid()))) {
   created_ = missingFolders(path_);
   std::error_code error;
   fs::create_directories(path_, error);
   if (error) throw FileError(path_.string(), "cannot be created: " + error.message());
+  removeWhatTheDeadLeft(target.path());
 }
 
 StagedResults::~StagedResults() {

@@ -9,7 +9,7 @@
 namespace csom {
 
 /// Tried out at once, so that hours of work cannot end at a folder that cannot be written; what
-/// that creates is removed again, so that a run that fails or is killed leaves nothing behind.
+/// that creates is removed again.
 class OutputFolder {
  public:
   /// `results`: the names of all files that the command may write into it. Throws FileError if the
@@ -26,7 +26,8 @@ class OutputFolder {
 };
 
 /// Results on their way: written into a folder of their own inside the output folder, and moved to
-/// their places together. If that never happens, they are removed.
+/// their places together. If that never happens, they are removed; those of a process that was
+/// killed by the next one that writes into the same folder.
 class StagedResults {
  public:
   /// Creates the output folder with its parents. Throws FileError.

@@ -13,6 +13,7 @@ void addMapCommand(CLI::App& program);
 void addInfoCommand(CLI::App& program);
 void addQueryCommand(CLI::App& program);
 void addMergeCommand(CLI::App& program);
+void addRepairCommand(CLI::App& program);
 void addEvalCommand(CLI::App& program);
 /// Below `csom eval`.
 void addEvalCameraCommand(CLI::App& eval);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // csom info: what a map file holds.
+#include <csom/core/Error.h>
 #include <csom/io/MapFile.h>
+#include <csom/io/MapRepair.h>
 #include <csom/io/TextParser.h>
 #include <csom/report/ClassesJson.h>
 #include <csom/report/MapFigures.h>
@@ -20,6 +22,7 @@ namespace {
 struct InfoArguments {
   std::string file;
   bool json = false;
+  bool verify = false;
 };
 
 /// The scans of a map in sum.
@@ -106,6 +109,10 @@ void printClasses(const MapDocument& document, const MapFigures& figures) {
 }
 
 void printAsText(const MapDocument& document, const MapFigures& figures) {
+  if (document.meta.count("state") > 0)
+    std::printf(
+        "state           unfinished: this is what its run had saved; csom map --resume FOLDER goes "
+        "on\n");
   std::printf("digest          %s\n", figures.digest.c_str());
   std::printf("resolution      %s m\n", toText(figures.resolution).c_str());
   std::printf("known voxels    %zu: %zu occupied, %zu free\n", figures.known_voxels,
@@ -130,7 +137,37 @@ void printAsText(const MapDocument& document, const MapFigures& figures) {
     std::printf("  %-24s %s\n", detail::printable(key).c_str(), detail::printable(value).c_str());
 }
 
+Json verificationToJson(const MapVerification& found) {
+  Json json;
+  json["intact"] = found.faults.empty();
+  json["finished"] = found.finished;
+  json["chunks"] = found.chunks;
+  json["scans"] = found.scans;
+  json["digest"] = found.digest;
+  json["faults"] = found.faults;
+  return json;
+}
+
+void runVerify(const InfoArguments& arguments) {
+  const MapVerification found = verifyMap(arguments.file);
+  if (arguments.json)
+    printJson(verificationToJson(found));
+  else if (found.faults.empty())
+    std::printf("%s: intact%s, %zu chunks, %zu scans, digest %s\n", arguments.file.c_str(),
+                found.finished ? "" : ", unfinished", found.chunks, found.scans,
+                found.digest.c_str());
+  for (const std::string& fault : found.faults)
+    std::fprintf(stderr, "csom: %s\n", detail::printable(fault).c_str());
+  if (!found.faults.empty())
+    throw FileError(arguments.file, "is damaged; 'csom repair' saves " +
+                                        std::to_string(found.chunks) + " intact chunks of it");
+}
+
 void runInfo(const InfoArguments& arguments) {
+  if (arguments.verify) {
+    runVerify(arguments);
+    return;
+  }
   const MapDocument document = loadMap(arguments.file);
   const MapFigures figures = figuresOf(document);
   if (arguments.json)
@@ -146,10 +183,15 @@ void addInfoCommand(CLI::App& program) {
   CLI::App* command = program.add_subcommand("info", "Print what a map holds");
   command->add_option("MAP", arguments->file, "map file (.csom)")->required();
   command->add_flag("--json", arguments->json, "print JSON");
+  command->add_flag("--verify", arguments->verify,
+                    "check every byte instead, a chunk at a time, and list all that is wrong");
   command->footer(
       "Prints what a map holds: size, extent, classes, scans, options and where it comes from.\n"
-      "The whole file is checked on the way; a damaged one is an error.\n\n"
+      "All voxels are checked on the way; a damaged file is an error. --verify finds damage "
+      "anywhere\n"
+      "in the file, in maps larger than memory too; exit code 1 if there is any.\n\n"
       "Examples:\n"
+      "  csom info out/map.csom --verify\n"
       "  csom info out/map.csom\n"
       "  csom info out/map.csom --json | jq '.classes[] | select(.voxels > 0) | .name'");
   command->callback([arguments] { runInfo(*arguments); });

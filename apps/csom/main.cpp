@@ -4,8 +4,10 @@
 #include <csom/core/Options.h>
 #include <csom/io/TextParser.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
 
 #include "commands.h"
@@ -36,13 +38,16 @@ std::string unknownCommand(const CLI::App& program, int argc, char** argv) {
 int main(int argc, char** argv) {
   constexpr int kFailed = 1;
   constexpr int kUsage = 2;
+  constexpr int kInterrupted = 128 + SIGINT;
+  // A file that may not grow any more is an error like a full disk, not a reason to die.
+  std::signal(SIGXFSZ, SIG_IGN);
 
   CLI::App program{"Continuous semantic occupancy maps from MRPT rawlogs."};
   program.set_version_flag("--version", "csom " CSOM_VERSION);
   program.require_subcommand(1);
   program.footer(
       "'csom COMMAND --help' shows the options and examples of a command.\n"
-      "Exit codes: 0 done, 1 failed, 2 wrong usage or configuration.");
+      "Exit codes: 0 done, 1 failed, 2 wrong usage or configuration, 130 stopped by Ctrl-C.");
   csom::addMapCommand(program);
   csom::addInfoCommand(program);
   csom::addQueryCommand(program);
@@ -50,6 +55,7 @@ int main(int argc, char** argv) {
   csom::addReportCommand(program);
   csom::addEvalCommand(program);
   csom::addMergeCommand(program);
+  csom::addRepairCommand(program);
   csom::addImportCommand(program);
   csom::addSimulateCommand(program);
 
@@ -70,6 +76,12 @@ int main(int argc, char** argv) {
   } catch (const csom::OptionError& error) {
     std::fprintf(stderr, "csom: %s\n", csom::detail::printable(error.what()).c_str());
     return kUsage;
+  } catch (const csom::Interrupted& error) {
+    std::fprintf(stderr, "csom: %s\n", csom::detail::printable(error.what()).c_str());
+    return kInterrupted;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "csom: memory is used up\n");
+    return kFailed;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "csom: %s\n", csom::detail::printable(error.what()).c_str());
     return kFailed;

@@ -2,9 +2,9 @@
 // csom map: rawlogs become a map and a report.
 #include <csom/core/Error.h>
 #include <csom/io/MapFile.h>
+#include <csom/io/MapStore.h>
 #include <csom/io/OutputFile.h>
 #include <csom/io/TextParser.h>
-#include <csom/maps/DefaultIni.h>
 #include <csom/rawlog/MappingRun.h>
 #include <csom/rawlog/RawlogWriter.h>
 #include <csom/report/Format.h>
@@ -12,63 +12,64 @@
 #include <csom/report/Report.h>
 #include <csom/report/RunRecord.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <new>
 #include <optional>
+#include <stdexcept>
+#include <utility>
 
 #include "CommandLine.h"
+#include "MapArguments.h"
 #include "MapRecord.h"
 #include "MappingStatus.h"
 #include "OutputFolder.h"
 #include "OutputPaths.h"
 #include "Progress.h"
+#include "StopSignal.h"
 #include "commands.h"
 
 namespace csom {
 namespace {
 
-struct MapArguments {
-  std::vector<std::string> logs;
-  std::string config;
-  std::string output;
-  std::string poses;
-  std::optional<int> threads;
-  std::string label_cache;
-  std::string simplemap;
-  bool no_deskew = false;
-  bool no_html = false;
-  bool color_blind = false;
-  bool json = false;
-};
+constexpr char kUnfinished[] = "unfinished.csom";
+/// Left to the rest of the program when a run stops before memory is used up.
+constexpr std::size_t kMemoryReserve = 256'000'000;
+/// A part of a map that is larger than memory, while its figures are counted.
+constexpr std::size_t kPartBytes = 32'000'000;
 
-MappingRequest requestOf(const MapArguments& arguments) {
-  MappingRequest request;
-  request.logs = arguments.logs;
-  request.config_file = arguments.config;
-  if (!arguments.poses.empty()) request.poses = PoseChoice::parse(arguments.poses);
-  request.threads = arguments.threads;
-  if (!arguments.label_cache.empty()) request.label_cache = arguments.label_cache;
-  request.deskew = !arguments.no_deskew;
-  request.keep_key_frames = !arguments.simplemap.empty();
-  return request;
-}
-
-MappingResult mapWithProgress(const MappingRequest& request) {
+MappingResult mapWithProgress(const MappingRequest& request, const CheckpointRequest& checkpoints) {
   Progress progress("mapping");
-  return mapLogs(request, [&](const MappingProgress& now) {
-    progress.update(now.entries_done, now.entries,
-                    [&](double seconds) { return mappingStatus(now, seconds); });
-  });
+  return mapLogs(
+      request,
+      [&](const MappingProgress& now) {
+        progress.update(now.entries_done, now.entries,
+                        [&](double seconds) { return mappingStatus(now, seconds); });
+      },
+      checkpoints);
 }
 
 MapDocument documentOf(const RunRecord& record, const MappingResult& result) {
   MapDocument document = result.map->document();
-  document.meta["created_by"] = "csom " + record.program_version;
-  document.meta["command"] = record.command;
-  document.meta["rawlog"] = detail::joined(record.inputs);
+  for (const auto& [key, value] : result.store->meta()) document.meta.emplace(key, value);
+  for (const char* key : {"state", "digest", "checksum"}) document.meta.erase(key);
   document.meta["poses"] = record.pose_source;
   return document;
+}
+
+/// The map in figures, with all voxels in `document` as far as they fit into `max_memory`.
+MapFigures figuresOf(MapDocument& document, const MappingResult& result,
+                     std::optional<std::uint64_t> max_memory) {
+  if (result.voxels_in_memory) return figuresOf(document);
+  MapFiguresSum sum(document.labels, result.store->options());
+  result.store->forEachPart(std::min<std::size_t>(kPartBytes, max_memory.value_or(kPartBytes)),
+                            [&](const SemanticMap& part) { sum.add(part); });
+  MapFigures figures = sum.figures(result.store->digest());
+  if (figures.memory_bytes <= max_memory.value_or(0)) document.map = result.store->loadVoxels();
+  return figures;
 }
 
 void printSummary(const RunRecord& record, const MapFigures& figures, const OutputFolder& folder,
@@ -102,40 +103,120 @@ void writeSimpleMap(const mrpt::maps::CSimpleMap& key_frames, const std::string&
   writer.commit();
 }
 
-void runMap(const MapArguments& arguments) {
-  if (arguments.output.empty()) throw ConfigError("--output is empty: name a folder");
-  const MappingRequest request = requestOf(arguments);
-  std::vector<std::string> inputs = arguments.logs;
-  inputs.push_back(arguments.config);
+/// Names, before anything is done, all that the command may write.
+OutputFolder outputFolder(const MapArguments& arguments, const MappingRequest& request) {
+  std::vector<std::string> inputs = request.logs;
+  inputs.push_back(request.config_file);
   if (request.poses && request.poses->takesFile()) inputs.push_back(request.poses->argument);
   std::vector<std::string> names = reportFiles();
   names.push_back("map.csom");
   names.push_back("trajectory.tum");
-  const OutputFolder folder(arguments.output, names);
-  std::vector<std::string> outputs;
+  OutputFolder folder(arguments.output, names);
+  std::vector<std::string> outputs{folder.file(kUnfinished)};
   for (const std::string& name : folder.results()) outputs.push_back(folder.file(name));
   if (!arguments.simplemap.empty()) outputs.push_back(arguments.simplemap);
   requireSeparateOutputs(outputs, inputs);
   if (!arguments.simplemap.empty()) OutputFile(arguments.simplemap);  // can it be written?
+  return folder;
+}
+
+/// How to go on, if there is something to go on with.
+std::string resumeHint(const std::string& unfinished, const std::string& folder) {
+  std::error_code error;
+  if (!std::filesystem::exists(unfinished, error)) return "";
+  return "; go on with: csom map --resume " + shellQuoted(folder);
+}
+
+MappingResult mapOrSayHowToGoOn(const MappingRequest& request, const CheckpointRequest& checkpoints,
+                                const std::string& folder) {
+  if (!checkpoints.resume && std::filesystem::exists(checkpoints.file)) {
+    MapStore::open(checkpoints.file);  // says if somebody is writing it
+    throw FileError(checkpoints.file, "is the map of a run that has not been finished" +
+                                          resumeHint(checkpoints.file, folder) +
+                                          ", or remove it to begin anew");
+  }
+  try {
+    return mapWithProgress(request, checkpoints);
+  } catch (const Interrupted& interrupted) {
+    throw Interrupted(interrupted.what() + resumeHint(checkpoints.file, folder));
+  } catch (const ConfigError&) {
+    throw;
+  } catch (const OptionError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error("memory is used up" + resumeHint(checkpoints.file, folder));
+  } catch (const std::exception& error) {
+    throw std::runtime_error(error.what() + resumeHint(checkpoints.file, folder));
+  }
+}
+
+CheckpointRequest checkpointsOf(const MapArguments& arguments, const MappingRequest& request,
+                                const OutputFolder& folder, const StopSignal& signal) {
+  CheckpointRequest checkpoints;
+  checkpoints.file = folder.file(kUnfinished);
+  checkpoints.resume = !arguments.resume.empty();
+  checkpoints.seconds = arguments.checkpoint;
+  if (arguments.max_memory) checkpoints.max_memory = *arguments.max_memory;
+  checkpoints.meta = {{"created_by", "csom " CSOM_VERSION},
+                      {"command", commandLine()},
+                      {"rawlog", detail::joined(request.logs)}};
+  checkpoints.notes = notesOf(arguments);
+  checkpoints.stop = [&signal] { return signal.received(); };
+  checkpoints.memory_shortage = [] { return memoryShortage(kMemoryReserve); };
+  return checkpoints;
+}
+
+/// Fills in what the run was asked that is to be gone on with.
+MappingRequest resumedRequest(MapArguments& arguments) {
+  arguments.output = arguments.resume;
+  const std::string file = (std::filesystem::path(arguments.resume) / kUnfinished).string();
+  if (!std::filesystem::exists(file))
+    throw FileError(arguments.resume, std::string("has no ") + kUnfinished +
+                                          ": no run was stopped there that could go on");
+  const MapStore::State state = readState(file);
+  applyNotes(state, arguments);
+  return requestOf(state, file);
+}
+
+void runMap(MapArguments arguments) {
+  check(arguments);
+  const StopSignal signal;
+  const MappingRequest request =
+      arguments.resume.empty() ? requestOf(arguments) : resumedRequest(arguments);
+  const OutputFolder folder = outputFolder(arguments, request);
+  StagedResults results(folder);
 
   const auto start = std::chrono::steady_clock::now();
-  const MappingResult result = mapWithProgress(request);
+  MappingResult result = mapOrSayHowToGoOn(
+      request, checkpointsOf(arguments, request, folder, signal), arguments.output);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  for (const std::string& warning : result.warnings)
-    std::fprintf(stderr, "csom: warning: %s\n", detail::printable(warning).c_str());
 
-  const RunRecord record = recordOf(request, result, elapsed.count());
-  const MapDocument document = documentOf(record, result);
-  StagedResults results(folder);
-  saveMap(document, results.file("map.csom"));
-  if (result.registration) writeTumTrajectory(result.trajectory, results.file("trajectory.tum"));
+  RunRecord record = recordOf(request, result, elapsed.count());
+  MapDocument document = documentOf(record, result);
   ReportOptions report;
   report.html = !arguments.no_html;
   report.map_picture.color_blind_safe = arguments.color_blind;
-  const MapFigures figures = figuresOf(document);
-  writeReport(record, document, figures, results.path(), report);
-  if (!arguments.simplemap.empty()) writeSimpleMap(result.key_frames, arguments.simplemap);
-  results.commit();
+  const MapFigures figures = figuresOf(document, result, arguments.max_memory);
+  if (!result.voxels_in_memory && document.map.empty()) {
+    report.html = report.png = false;
+    record.warnings.push_back(
+        "the map takes " + formatBytes(figures.memory_bytes) +
+        ", more than --max-memory: no pictures and no report.html; csom report makes them where "
+        "there is more memory");
+  }
+  for (const std::string& warning : record.warnings)
+    std::fprintf(stderr, "csom: warning: %s\n", detail::printable(warning).c_str());
+  try {
+    result.store->writeFinished(results.file("map.csom"), document.meta);
+    if (result.registration) writeTumTrajectory(result.trajectory, results.file("trajectory.tum"));
+    writeReport(record, document, figures, results.path(), report);
+    if (!arguments.simplemap.empty()) writeSimpleMap(result.key_frames, arguments.simplemap);
+    results.commit();
+  } catch (const std::exception& error) {
+    throw std::runtime_error(error.what() + resumeHint(folder.file(kUnfinished), arguments.output));
+  }
+  // Only now nobody needs it any more.
+  MapStore::remove(std::move(result.store));
 
   if (arguments.json)
     std::printf("%s\n", toJson(record, figures).c_str());
@@ -148,53 +229,19 @@ void runMap(const MapArguments& arguments) {
 void addMapCommand(CLI::App& program) {
   auto arguments = std::make_shared<MapArguments>();
   CLI::App* command = program.add_subcommand("map", "Build a semantic map from rawlogs");
-  command
-      ->add_option("LOG", arguments->logs, "Rawlogs or simplemaps (.gz or not), one after another")
-      ->required();
-  command
-      ->add_option("-c,--config", arguments->config, "Ini file with a section [MappingApplication]")
-      ->required();
-  command
-      ->add_option("-o,--output", arguments->output,
-                   "Folder for map.csom, run.json, report.html and pictures; created if missing")
-      ->required();
-  command->add_option("--poses", arguments->poses,
-                      "odometry | robot-pose[:LABEL] | tum:FILE | kitti:FILE | simplemap:FILE | "
-                      "icp[:LABEL], which registers the 3-D scans and writes trajectory.tum "
-                      "(default: the robot poses of the log, else its odometry; a simplemap has "
-                      "poses of its own)");
-  command->add_option(
-      "--threads", arguments->threads,
-      "Threads, 0 = all processors; does not change the map (default: as in the ini)");
-  command->add_option(
-      "--label-cache", arguments->label_cache,
-      "Folder in which what networks say about images is kept, so that the next run "
-      "needs no network (default: as in the ini)");
-  command->add_option("--write-simplemap", arguments->simplemap,
-                      "Also write the observations with their poses as a simplemap, of which "
-                      "observations2map makes the same map");
-  command->add_flag("--no-deskew", arguments->no_deskew,
-                    "Take Velodyne scans as they are, although the robot moves while the sensor "
-                    "turns");
-  command
-      ->add_flag_callback(
-          "--print-config",
-          [] {
-            std::fputs(defaultIni().c_str(), stdout);
-            throw CLI::Success();
-          },
-          "Print an ini with every key, its default and what it means, and do nothing else")
-      ->trigger_on_parse();
-  command->add_flag("--no-html", arguments->no_html, "Write no report.html");
-  command->add_flag("--color-blind", arguments->color_blind,
-                    "Pictures in colours that people with colour-blind eyes tell apart, instead of "
-                    "those of the label set");
-  command->add_flag("--json", arguments->json, "Print the run record as JSON instead of a summary");
+  addMapOptions(*command, *arguments);
   command->footer(
+      "While it runs the map grows in unfinished.csom of the output folder, which csom info and "
+      "all\n"
+      "other commands read. Ctrl-C finishes the scan at hand and saves; after that, after a crash "
+      "or a\n"
+      "full disk, --resume goes on and makes the same map, bit for bit.\n\n"
       "Examples:\n"
       "  csom map drive.rawlog -c config/campus.ini -o out\n"
       "  csom map a.rawlog b.rawlog.gz -c my.ini -o out --poses tum:trajectory.txt\n"
-      "  csom map slam.simplemap -c my.ini -o out --threads 0 --json");
+      "  csom map slam.simplemap -c my.ini -o out --threads 0 --json\n"
+      "  csom map --resume out\n"
+      "  csom map city.rawlog -c my.ini -o out --max-memory 2GB");
   command->callback([arguments] { runMap(*arguments); });
 }
 

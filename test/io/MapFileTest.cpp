@@ -175,9 +175,9 @@ TEST_F(MapFileTest, RefusesWhatIsNoMap) {
 
 TEST_F(MapFileTest, RefusesALaterVersionAndSaysWhatToDo) {
   const std::string file = savedMap();
-  runSql(file, "PRAGMA user_version = 2");
-  EXPECT_THAT(loadError(file), AllOf(HasSubstr("format version 2"),
-                                     HasSubstr("reads up to 1; use a newer mrpt_csom")));
+  runSql(file, "PRAGMA user_version = 3");
+  EXPECT_THAT(loadError(file), AllOf(HasSubstr("format version 3"),
+                                     HasSubstr("reads up to 2; use a newer mrpt_csom")));
 }
 
 TEST_F(MapFileTest, EveryTruncationIsAnError) {
@@ -235,9 +235,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Tampering{"NoChunksTable", "DROP TABLE chunks", "has no table chunks"},
         Tampering{"ChunkMissing", "DELETE FROM chunks WHERE rowid = 1", "digest"},
-        Tampering{"ChunkMoved", "UPDATE chunks SET x = x + 1000 WHERE rowid = 1", "digest"},
+        Tampering{"ChunkMoved", "UPDATE chunks SET x = x + 1000 WHERE rowid = 1",
+                  "row 1: its hash does not match"},
         Tampering{"ChunkFarAway", "UPDATE chunks SET x = 2000000 WHERE rowid = 1",
-                  "table chunks, row 1: chunk index"},
+                  "row 1: its hash does not match"},
         Tampering{"ChunkIndexHuge", "UPDATE chunks SET z = 9223372036854775807 WHERE rowid = 1",
                   "is out of range"},
         Tampering{"ChunkIndexText", "UPDATE chunks SET x = 'a' WHERE rowid = 1",
@@ -276,7 +277,8 @@ INSTANTIATE_TEST_SUITE_P(
                   "have been changed"},
         Tampering{"ScanMissing", "DELETE FROM scans WHERE id = 2", "have been changed"},
         Tampering{"ScanMoved", "UPDATE scans SET origin_x = origin_x + 1 WHERE id = 1",
-                  "have been changed"},
+                  "table scans, row 1: its hash does not match"},
+        Tampering{"NoDescription", "DROP TABLE description", "has no table description"},
         Tampering{"OtherMeta", "INSERT INTO meta VALUES ('seed', '1')", "have been changed"},
         Tampering{"NoChecksum", "DELETE FROM meta WHERE key = 'checksum'", "have been changed"},
         Tampering{"NoLabels", "DELETE FROM labels", "table labels is empty"},

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ChunkCodec.h"
 
-#include <xxhash.h>
-
 #include <stdexcept>
 
 namespace csom::detail {
@@ -13,10 +11,6 @@ namespace {
 constexpr int kCompressionLevel = 1;
 
 }  // namespace
-
-std::uint64_t hashOf(const void* bytes, std::size_t size) {
-  return XXH3_64bits(bytes, size);
-}
 
 ChunkCodec::ChunkCodec() : compressor_(ZSTD_createCCtx()), decompressor_(ZSTD_createDCtx()) {
   if (!compressor_ || !decompressor_) throw std::bad_alloc();

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chunk records as the map file stores them: compressed, each with a hash.
+// Chunk records as the map file stores them: compressed.
 #pragma once
 
 #include <zstd.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
 
 namespace csom::detail {
-
-/// XXH3 (64 bits) of the bytes.
-std::uint64_t hashOf(const void* bytes, std::size_t size);
 
 /// Compresses and decompresses records with zstd, reusing its buffers.
 class ChunkCodec {

@@ -7,6 +7,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <vector>
+
+#include "MapHashes.h"
 
 namespace csom::detail {
 
@@ -29,6 +32,21 @@ std::string readFile(const std::string& file) {
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (error || !stream) throw FileError(file, "cannot be read to its end");
   return bytes;
+}
+
+std::string fileHash(const std::string& file) {
+  requireRegularFile(file);
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw FileError(file, std::string("cannot be opened: ") + std::strerror(errno));
+  Hasher hasher;
+  std::vector<char> piece(std::size_t{1} << 20U);
+  while (stream) {
+    stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    hasher.add(piece.data(), static_cast<std::size_t>(stream.gcount()));
+  }
+  if (!stream.eof()) throw FileError(file, "cannot be read to its end");
+  return hexadecimal(hasher.value());
 }
 
 }  // namespace csom::detail

@@ -37,9 +37,14 @@ std::string createTables() {
          "; CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
          "CREATE TABLE options (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
          "CREATE TABLE labels (yaml TEXT NOT NULL);"
+         "CREATE TABLE description (hash INTEGER NOT NULL, bytes BLOB NOT NULL);"
+         "CREATE TABLE totals (chunks INTEGER NOT NULL, scans INTEGER NOT NULL,"
+         " digest TEXT NOT NULL, checksum TEXT NOT NULL, hash INTEGER NOT NULL);"
+         "CREATE TABLE resume (key TEXT PRIMARY KEY, value BLOB NOT NULL, hash INTEGER NOT NULL)"
+         " WITHOUT ROWID;"
          "CREATE TABLE scans (id INTEGER PRIMARY KEY" +
          scans +
-         ");"
+         ", hash INTEGER NOT NULL);"
          "CREATE TABLE chunks (x INTEGER NOT NULL, y INTEGER NOT NULL, z INTEGER NOT NULL,"
          " hash INTEGER NOT NULL, record BLOB NOT NULL, PRIMARY KEY (z, y, x));";
 }

@@ -2,6 +2,7 @@
 // The tables of a map file, as docs/file-format.md describes them.
 #pragma once
 
+#include <csom/core/Error.h>
 #include <csom/io/MapFile.h>
 
 #include <cstdint>
@@ -12,18 +13,26 @@ namespace csom::detail {
 /// "CSOM": what the program `file` and ourselves know a map by.
 constexpr std::int64_t kApplicationId = 0x43534f4d;
 /// To be raised with every change that an older reader would misunderstand.
-constexpr std::int64_t kFormatVersion = 1;
+constexpr std::int64_t kFormatVersion = 2;
 /// The key of `meta` that holds mapDigest() of the map; it is the file's, not the document's.
 constexpr const char* kDigestKey = "digest";
-/// The key of `meta` that holds descriptionChecksum().
+/// The key of `meta` that holds the checksum of everything else.
 constexpr const char* kChecksumKey = "checksum";
+/// The key of `meta` that says that a file is still being written. A finished one has no such key.
+constexpr const char* kStateKey = "state";
+constexpr const char* kUnfinished = "unfinished";
 
-/// Hash over all that a file holds beside its chunks: options, label set, scans and the other keys
-/// of `meta`. 16 hexadecimal digits.
-std::string descriptionChecksum(const MapDocument& document);
+/// At the end of what an error says about a file that is not as it was written.
+constexpr const char* kDamaged = "; the file is damaged, csom repair saves what is intact";
 
-/// "timestamp, sensor_label, …": the columns of `scans` besides its key, in order. Those of the
-/// report are named and ordered as visitReport() does it.
+/// A map of a format that this program does not know yet.
+class LaterVersionError : public FileError {
+ public:
+  using FileError::FileError;
+};
+
+/// "timestamp, sensor_label, …": the columns of `scans` between its key and its hash, in order.
+/// Those of the report are named and ordered as visitReport() does it.
 std::string scanColumns();
 /// The statements that make an empty map file.
 std::string createTables();

@@ -7,7 +7,8 @@
 #include <stdexcept>
 
 #include "ChunkCodec.h"
-#include "MapSchema.h"
+#include "MapTables.h"
+#include "PageSeals.h"
 #include "Sqlite.h"
 
 namespace csom {
@@ -17,59 +18,28 @@ namespace {
 using detail::Database;
 using detail::Statement;
 
-void writeMeta(const Database& database, const MapDocument& document) {
-  Statement insert(database, "INSERT INTO meta VALUES (?, ?)");
-  for (const auto& [key, value] : document.meta) {
-    if (key != detail::kDigestKey && key != detail::kChecksumKey)
-      insert.bind(1, key).bind(2, value).run();
-  }
-  insert.bind(1, detail::kDigestKey).bind(2, mapDigest(document.map)).run();
-  insert.bind(1, detail::kChecksumKey).bind(2, detail::descriptionChecksum(document)).run();
+/// Both return the sum of the hashes of their rows.
+std::uint64_t writeScans(const Database& database, const std::vector<ScanRecord>& scans) {
+  detail::ScanWriter writer(database);
+  std::uint64_t sum = 0;
+  std::int64_t id = 0;
+  for (const ScanRecord& scan : scans) sum += writer.write(++id, scan);
+  return sum;
 }
 
-void writeOptions(const Database& database, const Options& options) {
-  Statement insert(database, "INSERT INTO options VALUES (?, ?)");
-  visitOptions(options, [&](const char* name, const auto& field, const char*, const char*) {
-    insert.bind(1, name).bind(2, toString(field)).run();
-  });
-}
-
-void bindValue(Statement& statement, int parameter, double value) {
-  statement.bind(parameter, value);
-}
-void bindValue(Statement& statement, int parameter, std::size_t value) {
-  statement.bind(parameter, static_cast<std::int64_t>(value));
-}
-
-void writeScans(const Database& database, const std::vector<ScanRecord>& scans) {
-  const std::string columns = detail::scanColumns();
-  std::string parameters = "?";
-  for (const char c : columns)
-    if (c == ',') parameters += ", ?";
-  Statement insert(database, "INSERT INTO scans (" + columns + ") VALUES (" + parameters + ")");
-  for (const ScanRecord& scan : scans) {
-    int parameter = 0;
-    insert.bind(++parameter, scan.timestamp);
-    insert.bind(++parameter, scan.sensor_label);
-    insert.bind(++parameter, scan.observation_class);
-    for (const double coordinate : scan.origin) insert.bind(++parameter, coordinate);
-    visitReport(scan.report, [&](const std::string&, const auto& field) {
-      bindValue(insert, ++parameter, field);
-    });
-    insert.run();
-  }
-}
-
-void writeChunks(const Database& database, const ChunkStore& chunks) {
+std::uint64_t writeChunks(const Database& database, const ChunkStore& chunks) {
   Statement insert(database, "INSERT INTO chunks (x, y, z, hash, record) VALUES (?, ?, ?, ?, ?)");
   detail::ChunkCodec codec;
+  std::uint64_t sum = 0;
   for (const auto& [index, chunk] : chunks.sorted()) {
     const std::string_view frame = codec.compress(chunk->record(), chunk->recordSize());
+    const std::uint64_t hash = detail::chunkHash(index, chunk->record(), chunk->recordSize());
     insert.bind(1, std::int64_t{index.x}).bind(2, std::int64_t{index.y});
-    insert.bind(3, std::int64_t{index.z});
-    insert.bind(4, static_cast<std::int64_t>(detail::hashOf(chunk->record(), chunk->recordSize())));
+    insert.bind(3, std::int64_t{index.z}).bind(4, static_cast<std::int64_t>(hash));
     insert.bindBlob(5, frame.data(), frame.size()).run();
+    sum += hash;
   }
+  return sum;
 }
 
 }  // namespace
@@ -81,16 +51,23 @@ void saveMap(const MapDocument& document, const std::string& file) {
   if (output.isDirect()) throw FileError(file, "is not a regular file; a map needs one");
 
   Database database(output.path(), file, Database::Mode::ReadWrite);
+  database.reserveForSeals();
   // The temporary file is worth nothing before it is complete, and is flushed once at the end.
   database.execute("PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF; BEGIN");
   database.execute(detail::createTables());
-  writeMeta(database, document);
-  writeOptions(database, document.map.options());
-  Statement(database, "INSERT INTO labels VALUES (?)").bind(1, document.labels.toYaml()).run();
-  writeScans(database, document.scans);
-  writeChunks(database, document.map.chunks());
+  const Options& options = document.map.options();
+  detail::Texts meta = document.meta;
+  meta.erase(detail::kStateKey);  // what is saved is finished
+  const std::string description =
+      detail::writeDescription(database, options, document.labels, meta);
+  const std::uint64_t scans = writeScans(database, document.scans);
+  const std::uint64_t chunks = writeChunks(database, document.map.chunks());
+  detail::writeTotals(database, {document.map.chunks().chunkCount(), document.scans.size(),
+                                 detail::digestOf(options, chunks),
+                                 detail::checksumOf(description, scans, document.scans.size())});
   database.execute("COMMIT");
   database.close();
+  detail::sealPages(output.path(), file);
   output.commit();
 }
 

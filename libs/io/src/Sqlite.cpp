@@ -3,9 +3,17 @@
 
 #include <csom/core/Error.h>
 
+#include <cstring>
 #include <limits>
 
+#include "MapSchema.h"
+#include "PageSeals.h"
+
 namespace csom::detail {
+
+namespace {
+constexpr int kBusyMilliseconds = 10000;
+}
 
 Database::Database(const std::string& path, const std::string& shown_name, Mode mode)
     : shown_name_(shown_name) {
@@ -19,6 +27,8 @@ Database::Database(const std::string& path, const std::string& shown_name, Mode 
   }
   // A map file is data: nothing in its schema may run code.
   sqlite3_db_config(handle_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  // Whoever writes to the file holds it for a moment only.
+  sqlite3_busy_timeout(handle_, kBusyMilliseconds);
 }
 
 Database::~Database() {
@@ -27,6 +37,20 @@ Database::~Database() {
 
 void Database::execute(const std::string& sql) {
   if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail(sql);
+}
+
+void Database::reserveForSeals() {
+  execute("PRAGMA page_size = " + std::to_string(kPageSize));
+  int bytes = static_cast<int>(kSealSize);
+  sqlite3_file_control(handle_, "main", SQLITE_FCNTL_RESERVE_BYTES, &bytes);
+}
+
+void Database::copyFrom(const Database& source) {
+  sqlite3_backup* const backup = sqlite3_backup_init(handle_, "main", source.handle_, "main");
+  if (backup == nullptr) fail("copying");
+  sqlite3_backup_step(backup, -1);
+  const int result = sqlite3_backup_finish(backup);
+  if (result != SQLITE_OK) throw FileError(shown_name_, sqlite3_errstr(result));
 }
 
 void Database::close() {
@@ -41,8 +65,14 @@ void Database::fail(const std::string& what) const {
       throw FileError(shown_name_, "is no csom map (not a SQLite database)");
     case SQLITE_CORRUPT:
       throw FileError(shown_name_, "is damaged or truncated (" +
-                                       std::string(sqlite3_errmsg(handle_)) +
-                                       "); make the map again or use a copy of the file");
+                                       std::string(sqlite3_errmsg(handle_)) + ")" + kDamaged);
+    case SQLITE_FULL:
+      throw FileError(shown_name_, "cannot be written: the disk is full");
+    case SQLITE_IOERR: {
+      const int reason = sqlite3_system_errno(handle_);
+      throw FileError(shown_name_, std::string("cannot be read or written: ") +
+                                       (reason != 0 ? std::strerror(reason) : "disk I/O error"));
+    }
     default:
       throw FileError(shown_name_, std::string(sqlite3_errmsg(handle_)) + " (at: " + what + ")");
   }
@@ -102,11 +132,10 @@ void Statement::expectType(int column, int type) const {
   static constexpr const char* kTypeNames[] = {"",       "an integer", "a real number",
                                                "a text", "a blob",     "null"};
   const char* name = sqlite3_column_name(statement_, column);
-  throw FileError(database_.shownName(), "row " + std::to_string(row_) + " of '" +
-                                             sqlite3_sql(statement_) + "': column '" +
-                                             (name != nullptr ? name : "?") + "' is " +
-                                             kTypeNames[found] + ", must be " + kTypeNames[type] +
-                                             "; the file is damaged, make the map again");
+  throw FileError(database_.shownName(),
+                  "row " + std::to_string(row_) + " of '" + sqlite3_sql(statement_) +
+                      "': column '" + (name != nullptr ? name : "?") + "' is " + kTypeNames[found] +
+                      ", must be " + kTypeNames[type] + kDamaged);
 }
 
 std::int64_t Statement::integer(int column) const {

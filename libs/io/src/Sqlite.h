@@ -23,6 +23,10 @@ class Database {
   Database& operator=(const Database&) = delete;
 
   void execute(const std::string& sql);
+  /// To be called before the first table is made: every page keeps room for its seal.
+  void reserveForSeals();
+  /// Makes this database, which must be empty, the same as another one, page by page.
+  void copyFrom(const Database& source);
   /// Closes the connection and reports what that finds; the destructor would be silent.
   void close();
 
@@ -51,6 +55,8 @@ class Statement {
 
   /// Advances to the next row; false at the end.
   bool step();
+  /// Makes it ready to be run again; the values of the current row are gone.
+  void reset() { check(sqlite3_reset(statement_)); }
   /// Runs a statement without rows and makes it ready for the next set of parameters.
   void run();
 

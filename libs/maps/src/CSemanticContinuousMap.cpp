@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <iostream>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -163,6 +164,16 @@ void CSemanticContinuousMap::setContent(SemanticMap map, std::shared_ptr<const S
   invalidateCaches();
 }
 
+void CSemanticContinuousMap::replaceContent(SemanticMap voxels, std::vector<ScanRecord> scans) {
+  if (!mergeable(voxels.options(), map_.options()))
+    throw std::invalid_argument("replaceContent: voxels of another kind of map");
+  SemanticMap with_own_options(map_.options());
+  with_own_options.merge(voxels);
+  map_ = std::move(with_own_options);
+  scans_ = std::move(scans);
+  invalidateCaches();
+}
+
 std::string CSemanticContinuousMap::asString() const {
   return "csom::CSemanticContinuousMap: " + std::to_string(map_.knownVoxelCount()) +
          " known voxels of " + toString(map_.options().resolution) + " m, " +
@@ -216,6 +227,8 @@ bool CSemanticContinuousMap::internal_insertObservation(
   try {
     const Eigen::Isometry3d pose = roundedPose(robot_pose.value_or(mrpt::poses::CPose3D()));
     adapted = adapter().adapt(observation, pose, rules);
+  } catch (const std::bad_alloc&) {
+    throw;  // that is not the observation's fault
   } catch (const std::exception& error) {
     if (adapter_) insertScans(adapter_->takeFinished());
     // An application must not stop because of one damaged observation.

@@ -12,11 +12,14 @@
 
 #include <chrono>
 #include <filesystem>
+#include <new>
 #include <stdexcept>
 
+#include "Checkpoints.h"
 #include "CrashReport.h"
 #include "EigenPose.h"
 #include "ExternalFiles.h"
+#include "MappingState.h"
 #include "MrptText.h"
 #include "PosedLog.h"
 
@@ -99,13 +102,13 @@ CSemanticContinuousMap::Ptr emptyMap(const MappingRequest& request) {
 class MappingRun {
  public:
   MappingRun(const MappingRequest& request,
-             const std::function<void(const MappingProgress&)>& on_progress)
-      : request_(request), on_progress_(on_progress) {}
+             const std::function<void(const MappingProgress&)>& on_progress,
+             const std::optional<CheckpointRequest>& checkpoints)
+      : request_(request), on_progress_(on_progress), checkpoint_request_(checkpoints) {}
 
   MappingResult run() {
     result_.map = emptyMap(request_);
-    if (request_.deskew) result_.deskew.emplace();
-    result_.map->setLabelledScanObserver([this](const LabelledScan& scan) { keepSeen(scan); });
+    if (request_.deskew) state_.deskew.emplace();
     // All that can be wrong with the input is found out before the long part starts.
     std::vector<PoseSource> poses;
     std::vector<RawlogSurvey> surveys;
@@ -117,19 +120,24 @@ class MappingRun {
       poses.emplace_back(request_.poses, surveys.back());
       entries_ += surveys.back().end.entries;
     }
-    for (std::size_t i = 0; i < surveys.size(); ++i) {
-      result_.logs.push_back({surveys[i].file, surveys[i].end, poses[i].choice()});
-      mapLog(surveys[i], poses[i]);
+    if (checkpoint_request_)
+      checkpoints_.emplace(*checkpoint_request_, request_, result_.map, state_);
+    try {
+      mapAll(surveys, poses);
+    } catch (const std::exception&) {
+      if (checkpoints_) checkpoints_->discardIfEmpty();
+      throw;
     }
-    result_.map->setLabelledScanObserver({});
-    finish();
     return std::move(result_);
   }
 
  private:
   RawlogSurvey survey(const std::string& log);
-  void mapLog(const RawlogSurvey& survey, PoseSource& poses);
+  void mapAll(const std::vector<RawlogSurvey>& surveys, std::vector<PoseSource>& poses);
+  void mapLog(const RawlogSurvey& survey, PoseSource& poses, std::size_t entries_before);
   void mapEntry(const detail::PosedEntry& entry);
+  void keepEntry(const detail::PosedEntry& entry);
+  void mapInMemory(const detail::PosedEntry& entry);
   MappingProgress progress(const std::string& log) const;
   void noteRegistration(const PoseSource& poses);
   void insert(const mrpt::obs::CObservation& observation, const CPose3D& pose);
@@ -141,9 +149,9 @@ class MappingRun {
     refuse(detail::shortName(observation.GetRuntimeClass()->className), reason);
   }
   void refuse(const std::string& observation_class, const std::string& reason) {
-    ++result_.refused[{observation_class, reason}];
+    ++state_.refused[{observation_class, reason}];
     // A log holds many kinds of observations, and not to want them is no trouble.
-    if (reason != kOtherKind && reason != kNoLabelSource) ++observations_refused_;
+    if (reason != kOtherKind && reason != kNoLabelSource) ++state_.observations_refused;
   }
   void warn(const std::string& text) { result_.warnings.push_back(text); }
   void warnAboutPoints();
@@ -153,12 +161,12 @@ class MappingRun {
 
   const MappingRequest& request_;
   const std::function<void(const MappingProgress&)>& on_progress_;
+  const std::optional<CheckpointRequest>& checkpoint_request_;
   MappingResult result_;
-  Eigen::Vector3d up_ = Eigen::Vector3d::Zero();
+  detail::MappingState state_;  ///< all that is counted, as far as it goes into the result
+  std::optional<detail::Checkpoints> checkpoints_;
   std::size_t entries_ = 0;
   std::size_t entries_done_ = 0;
-  std::size_t points_rejected_ = 0;  ///< of the scans in the map
-  std::size_t observations_refused_ = 0;
   /// Key frame that the entry at hand has opened, to which observations of the same pose are added.
   mrpt::obs::CSensoryFrame::Ptr open_frame_;
   CPose3D open_frame_pose_;
@@ -183,32 +191,79 @@ RawlogSurvey MappingRun::survey(const std::string& log) {
   return found;
 }
 
-void MappingRun::mapLog(const RawlogSurvey& survey, PoseSource& poses) {
-  {
+void MappingRun::mapAll(const std::vector<RawlogSurvey>& surveys, std::vector<PoseSource>& poses) {
+  result_.map->setLabelledScanObserver([this](const LabelledScan& scan) { keepSeen(scan); });
+  const detail::MappingState before = state_;  // of an earlier run that this one goes on with
+  for (std::size_t i = 0; i < surveys.size(); ++i) {
+    result_.logs.push_back({surveys[i].file, surveys[i].end, poses[i].choice()});
+    const std::size_t all = surveys[i].end.entries;
+    mapLog(surveys[i], poses[i], i < before.log ? all : i == before.log ? before.entries : 0);
+    if (i < before.log) continue;
+    state_.log = i + 1;
+    state_.entries = 0;
+  }
+  result_.map->setLabelledScanObserver({});
+  if (checkpoints_) checkpoints_->commit(*result_.map, state_);
+  finish();
+}
+
+/// `entries_before` of the log are in the map already: their poses are needed, no more.
+void MappingRun::mapLog(const RawlogSurvey& survey, PoseSource& poses, std::size_t entries_before) {
+  const bool mapped_before =
+      entries_before == survey.end.entries && state_.log > result_.logs.size() - 1;
+  if (!mapped_before || request_.keep_key_frames) {
     const bool cameras = result_.map->labelOptions.usesCameras();
-    detail::PosedLog log(survey, poses, {request_.deskew, cameras});
+    const std::size_t skip = request_.keep_key_frames ? 0 : entries_before;
+    detail::PosedLog log(survey, poses, {request_.deskew, cameras, skip});
     ReadAhead<detail::PosedEntry> entries(kEntriesAhead, [&log] { return log.next(); });
-    while (const auto entry = entries.next()) {
-      mapEntry(*entry);
-      ++entries_done_;
+    for (std::size_t done = 0; const auto entry = entries.next(); ++entries_done_) {
+      if (++done <= entries_before) {
+        keepEntry(*entry);
+      } else {
+        mapInMemory(*entry);
+        state_.entries = done;
+        if (checkpoints_) checkpoints_->afterEntry(*result_.map, state_);
+      }
       if (on_progress_) on_progress_(progress(survey.file));
     }
+  } else {
+    entries_done_ += survey.end.entries;
   }
-  flush();
+  if (!mapped_before) flush();
   noteRegistration(poses);
 }
 
+/// An insertion that memory was too short for may be in the map by half: what counts is what was
+/// committed before.
+void MappingRun::mapInMemory(const detail::PosedEntry& entry) {
+  try {
+    mapEntry(entry);
+  } catch (const std::bad_alloc&) {
+    if (!checkpoints_) throw;
+    throw std::runtime_error("memory is used up; " +
+                             std::to_string(checkpoints_->scansCommitted()) +
+                             " scans are saved, and --max-memory maps the rest with less");
+  }
+}
+
 void MappingRun::mapEntry(const detail::PosedEntry& entry) {
-  open_frame_.reset();
-  if (result_.deskew) *result_.deskew += entry.deskew;
+  if (state_.deskew) *state_.deskew += entry.deskew;
   for (const auto& [observation, pose] : entry.observations) {
-    ++result_.observations_read;
+    ++state_.observations_read;
     if (!pose) {
       refuse(*observation, "no pose at its time");
       continue;
     }
     insert(*observation, *pose);
-    if (request_.keep_key_frames) keep(observation, *pose);
+  }
+  keepEntry(entry);
+}
+
+void MappingRun::keepEntry(const detail::PosedEntry& entry) {
+  open_frame_.reset();
+  if (!request_.keep_key_frames) return;
+  for (const auto& [observation, pose] : entry.observations) {
+    if (pose) keep(observation, *pose);
   }
 }
 
@@ -240,7 +295,7 @@ void MappingRun::insert(const mrpt::obs::CObservation& observation, const CPose3
     return;
   }
   const auto rotation = pose.getRotationMatrix();
-  up_ += Eigen::Vector3d(rotation(0, 2), rotation(1, 2), rotation(2, 2));
+  state_.up += Eigen::Vector3d(rotation(0, 2), rotation(1, 2), rotation(2, 2));
 }
 
 /// What one log leaves waiting is not joined with the images of the next.
@@ -259,8 +314,8 @@ void MappingRun::noteScans(std::size_t scans_before, double elapsed_ms) {
   const auto& scans = result_.map->scans();
   const std::size_t added = scans.size() - scans_before;
   for (std::size_t i = scans_before; i < scans.size(); ++i) {
-    result_.insert_ms.push_back(elapsed_ms / static_cast<double>(added));
-    points_rejected_ += scans[i].report.rejectedTotal();
+    state_.insert_ms.push_back(elapsed_ms / static_cast<double>(added));
+    state_.points_rejected += scans[i].report.rejectedTotal();
   }
 }
 
@@ -268,10 +323,11 @@ MappingProgress MappingRun::progress(const std::string& log) const {
   const CSemanticContinuousMap& map = *result_.map;
   const InsertionStatistics& statistics = map.statistics();
   std::size_t rejected =
-      points_rejected_ + statistics.unused.rejectedTotal() + statistics.labels.dropped();
+      state_.points_rejected + statistics.unused.rejectedTotal() + statistics.labels.dropped();
   if (const auto cameras = map.cameraStatistics()) rejected += cameras->pointsDropped();
-  return {log,      entries_done_,         entries_, map.scans().size(),
-          rejected, observations_refused_, map.map()};
+  return {
+      log,      entries_done_, entries_, map.scans().size(), rejected, state_.observations_refused,
+      map.map()};
 }
 
 void MappingRun::keepSeen(const LabelledScan& scan) {
@@ -327,18 +383,25 @@ void MappingRun::warnAboutCameras() {
 }
 
 void MappingRun::finish() {
+  result_.insert_ms = state_.insert_ms;
+  result_.observations_read = state_.observations_read;
+  result_.refused = state_.refused;
+  result_.deskew = state_.deskew;
   if (result_.deskew && result_.deskew->not_possible > 0)
     warn(counted(result_.deskew->not_possible, "scans") +
          " are in the map as if the robot had stood still while they were taken: the poses do not "
          "span the time of their packets");
-  if (up_.norm() > 0) result_.up = up_.normalized();
+  if (state_.up.norm() > 0) result_.up = state_.up.normalized();
   warnAboutPoints();
   warnAboutCameras();
   for (const auto& [what, count] : result_.refused) {
     if (what.second == kOtherKind || what.second == kNoLabelSource) continue;
     warn("refused " + counted(count, what.first) + ": " + what.second);
   }
-  if (result_.map->isEmpty()) throw std::runtime_error(whyEmpty());
+  if (result_.map->scans().empty()) throw std::runtime_error(whyEmpty());
+  if (!checkpoints_) return;
+  result_.voxels_in_memory = checkpoints_->voxelsInMemory();
+  result_.store = checkpoints_->release();
 }
 
 std::string MappingRun::whyEmpty() const {
@@ -358,8 +421,9 @@ std::string MappingRun::whyEmpty() const {
 }  // namespace
 
 MappingResult mapLogs(const MappingRequest& request,
-                      const std::function<void(const MappingProgress&)>& on_progress) {
-  return MappingRun(request, on_progress).run();
+                      const std::function<void(const MappingProgress&)>& on_progress,
+                      const std::optional<CheckpointRequest>& checkpoints) {
+  return MappingRun(request, on_progress, checkpoints).run();
 }
 
 }  // namespace csom

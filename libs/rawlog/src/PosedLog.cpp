@@ -49,7 +49,8 @@ PosedEntry PosedLog::posed(const RawlogEntry& entry) {
   PosedEntry out;
   for (const auto& observation : entry.observations) {
     if (tellsPose(*observation)) continue;
-    const auto pose = poses_.poseOf(entry, *observation);
+    const auto pose = poses_.poseOf(entry, *observation);  // it counts what it is asked for
+    if (entry.index < options_.skip) continue;
     if (options_.load_images) loadImages(*observation);
     out.observations.push_back(
         {pose && options_.deskew ? withoutMotion(observation, out.deskew) : observation, pose});

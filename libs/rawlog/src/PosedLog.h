@@ -34,6 +34,7 @@ class PosedLog {
   struct Options {
     bool deskew = true;        ///< take the robot's motion out of scans
     bool load_images = false;  ///< from their files
+    std::size_t skip = 0;      ///< so many entries at the beginning are handed out empty
   };
 
   /// `poses` must outlive this.

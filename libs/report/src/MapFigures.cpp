@@ -8,17 +8,16 @@ namespace csom {
 
 namespace {
 
-std::vector<ClassFigures> classesOf(const MapDocument& document) {
+std::vector<ClassFigures> classesOf(const LabelSet& labels, const Options& options) {
   // A map may have fewer or more classes than its label set names.
-  const int classes =
-      std::max(document.labels.numberOfClasses(), document.map.options().number_of_classes);
+  const int classes = std::max(labels.numberOfClasses(), options.number_of_classes);
   std::vector<ClassFigures> figures(static_cast<std::size_t>(classes));
   for (int k = 0; k < classes; ++k) {
     ClassFigures& c = figures[static_cast<std::size_t>(k)];
     c.id = static_cast<ClassId>(k);
-    if (k < document.labels.numberOfClasses()) {
-      c.name = document.labels.at(c.id).name;
-      c.color = document.labels.at(c.id).color;
+    if (k < labels.numberOfClasses()) {
+      c.name = labels.at(c.id).name;
+      c.color = labels.at(c.id).color;
     } else {
       c.name = "class " + std::to_string(k);
       c.color = LabelClass{}.color;
@@ -36,25 +35,28 @@ Eigen::AlignedBox3d boundsOf(const SemanticMap& map) {
 
 }  // namespace
 
-MapFigures figuresOf(const MapDocument& document) {
-  const SemanticMap& map = document.map;
-  MapFigures figures;
-  figures.resolution = map.grid().resolution();
-  figures.chunks = map.chunks().chunkCount();
-  figures.memory_bytes = map.memoryBytes();
-  figures.bounds = boundsOf(map);
-  figures.digest = mapDigest(map);
-  figures.classes = classesOf(document);
+MapFiguresSum::MapFiguresSum(const LabelSet& labels, const Options& options) {
+  sum_.resolution = options.resolution;
+  sum_.classes = classesOf(labels, options);
+}
 
-  map.forEachVoxel([&](const VoxelIndex&, const DirichletVoxel& voxel) {
-    ++figures.known_voxels;
+void MapFiguresSum::add(const SemanticMap& part) {
+  sum_.chunks += part.chunks().chunkCount();
+  sum_.memory_bytes += part.memoryBytes();
+  sum_.bounds.extend(boundsOf(part));
+  part.forEachVoxel([&](const VoxelIndex&, const DirichletVoxel& voxel) {
+    ++sum_.known_voxels;
     const ClassId k = voxel.mostLikelyClass();
-    ++(k == kFreeClass ? figures.free_voxels : figures.occupied_voxels);
-    ClassFigures& c = figures.classes[k];
+    ++(k == kFreeClass ? sum_.free_voxels : sum_.occupied_voxels);
+    ClassFigures& c = sum_.classes[k];
     ++c.voxels;
-    c.mean_probability += voxel.probability(k);  // the sum, so far
+    c.mean_probability += voxel.probability(k);
   });
+}
 
+MapFigures MapFiguresSum::figures(const std::string& digest) const {
+  MapFigures figures = sum_;
+  figures.digest = digest;
   const double voxel_volume = figures.resolution * figures.resolution * figures.resolution;
   for (ClassFigures& c : figures.classes) {
     if (c.voxels == 0) continue;
@@ -64,6 +66,12 @@ MapFigures figuresOf(const MapDocument& document) {
     if (c.id != kFreeClass) c.share = voxels / static_cast<double>(figures.occupied_voxels);
   }
   return figures;
+}
+
+MapFigures figuresOf(const MapDocument& document) {
+  MapFiguresSum sum(document.labels, document.map.options());
+  sum.add(document.map);
+  return sum.figures(mapDigest(document.map));
 }
 
 }  // namespace csom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two ways in which input is at fault.
+// What ends a command before its time: input that is at fault, or the wish of the user.
 #pragma once
 
 #include <stdexcept>
@@ -18,6 +18,12 @@ class FileError : public std::runtime_error {
 /// A configuration or a command line asks for something impossible. The message names the file,
 /// the section or option, and what is accepted.
 class ConfigError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Somebody wants the program to stop. The message says what is kept.
+class Interrupted : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };

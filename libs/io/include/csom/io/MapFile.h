@@ -30,17 +30,21 @@ struct MapDocument {
   std::map<std::string, std::string> meta;
 };
 
-/// Writes `document` to `file`: to a temporary file beside it first, which then replaces it, so
-/// that `file` is never half written. Throws FileError; std::invalid_argument if the map and the
-/// label set have different numbers of classes.
+/// Writes `document` to `file`, in the present version of the format: to a temporary file beside it
+/// first, which then replaces it, so that `file` is never half written. Throws FileError;
+/// std::invalid_argument if the map and the label set have different numbers of classes.
 void saveMap(const MapDocument& document, const std::string& file);
 
-/// Checks everything: every chunk against its hash, the whole against the map's digest. Throws
-/// FileError naming the table and row if `file` is no map, a damaged one, or of a later version.
+/// Reads this and all earlier versions. Checks everything: every chunk and scan against its hash,
+/// the whole against the map's digest. Throws FileError naming the table and row if `file` is no
+/// map, a damaged one, or of a later version. A map that is still being written is read as it was
+/// committed last, and has the key `state` in its meta.
 MapDocument loadMap(const std::string& file);
 
-/// Hash over resolution, classes, prior and all chunk records in order: equal for equal maps,
-/// however they were made. 16 hexadecimal digits (XXH3, 64 bits).
+/// Hash over resolution, classes, prior and all chunk records, in whatever order: equal for equal
+/// maps, however they were made. 16 hexadecimal digits (XXH3, 64 bits).
 std::string mapDigest(const SemanticMap& map);
+/// The same as files of version 1 have it, and what was written beside them.
+std::string mapDigestOfVersion1(const SemanticMap& map);
 
 }  // namespace csom

@@ -140,6 +140,10 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   /// what the document said that was set.
   MapDocument document() const;
   void setDocument(MapDocument document);
+  /// For who keeps voxels and records of scans elsewhere while this map goes on: other ones, or
+  /// none. Everything else stays, observations that wait for others included. Throws
+  /// std::invalid_argument if the voxels are of other options than these.
+  void replaceContent(SemanticMap voxels, std::vector<ScanRecord> scans);
 
   MAP_DEFINITION_START(CSemanticContinuousMap)
   Options options;

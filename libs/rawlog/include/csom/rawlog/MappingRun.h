@@ -4,6 +4,7 @@
 
 #include <csom/io/TrajectoryFile.h>
 #include <csom/maps/CSemanticContinuousMap.h>
+#include <csom/rawlog/CheckpointRequest.h>
 #include <csom/rawlog/Deskew.h>
 #include <csom/rawlog/PoseSource.h>
 #include <csom/rawlog/RawlogReader.h>
@@ -13,6 +14,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -38,7 +40,10 @@ struct MappingProgress {
   std::size_t scans = 0;    ///< inserted
   std::size_t points_rejected = 0;
   std::size_t observations_refused = 0;
-  const SemanticMap& map;  ///< as it is now. Its figures are counted when they are asked for
+  /// As it is now, or the part of it that is not on the disk yet. Its figures are counted when they
+  /// are asked for.
+  const SemanticMap& map;
+  std::size_t chunks_on_disk = 0;  ///< where voxels take more than CheckpointRequest::max_memory
 };
 
 struct MappedLog {
@@ -49,6 +54,10 @@ struct MappedLog {
 
 struct MappingResult {
   CSemanticContinuousMap::Ptr map;
+  std::unique_ptr<MapStore> store;  ///< with checkpoints: all that was inserted, committed
+  /// All voxels are in `map` too. False: they were more than CheckpointRequest::max_memory, and are
+  /// in `store` alone.
+  bool voxels_in_memory = true;
   std::vector<MappedLog> logs;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< mean z axis of the robot, in the map frame
   std::vector<double> insert_ms;                  ///< one for each of map->scans()
@@ -73,7 +82,17 @@ struct MappingResult {
 /// keys in our sections included), or if several logs are to be registered; std::runtime_error if
 /// no observation could be used. A log that is cut off or damaged counts as far as it can be read,
 /// with a warning.
+///
+/// With `checkpoints` the map grows in a file as well, from which a run that has ended in whatever
+/// way goes on: see CheckpointRequest. Interrupted, FileError and std::runtime_error (memory is
+/// short) may then end a run that could go on; a run that fails before its first commit leaves no
+/// file.
 MappingResult mapLogs(const MappingRequest& request,
-                      const std::function<void(const MappingProgress&)>& on_progress = {});
+                      const std::function<void(const MappingProgress&)>& on_progress = {},
+                      const std::optional<CheckpointRequest>& checkpoints = std::nullopt);
+
+/// The request that the run had which left this state. Throws FileError, about `file`, if it is no
+/// such state.
+MappingRequest requestOf(const MapStore::State& state, const std::string& file);
 
 }  // namespace csom

@@ -39,4 +39,16 @@ struct MapFigures {
 /// Visits every voxel of the map once.
 MapFigures figuresOf(const MapDocument& document);
 
+/// The same for a map that comes in parts, none of which shares a voxel with another.
+class MapFiguresSum {
+ public:
+  explicit MapFiguresSum(const LabelSet& labels, const Options& options);
+  void add(const SemanticMap& part);
+  /// Of all parts so far; `digest` is that of the whole map.
+  MapFigures figures(const std::string& digest) const;
+
+ private:
+  MapFigures sum_;  ///< ClassFigures::mean_probability is the sum over the voxels
+};
+
 }  // namespace csom
