@@ -16,8 +16,8 @@
 namespace csom {
 namespace {
 
-/// 1: labels from cameras. 2: options of the likelihood by name.
-constexpr std::uint8_t kVersion = 2;
+/// 1: labels from cameras. 2: options of the likelihood by name. 3: those of views by name.
+constexpr std::uint8_t kVersion = 3;
 
 using Texts = std::map<std::string, std::string>;
 using Counts = std::map<std::string, std::size_t>;
@@ -76,6 +76,20 @@ Options readOptions(ByteReader& in) {
   return options;
 }
 
+/// Parses the option `key` and takes it out, if it is there.
+template <class Field>
+void takeText(Texts& texts, const std::string& key, Field& field) {
+  const auto text = texts.find(key);
+  if (text == texts.end()) return;
+  parse(key, text->second, field);
+  texts.erase(text);
+}
+
+void requireNoMore(const Texts& texts) {
+  if (!texts.empty())
+    throw std::runtime_error("serialised map: unknown option '" + texts.begin()->first + "'");
+}
+
 void write(ByteWriter& out, const LabelOptions& options) {
   Texts texts;
   visitLabelOptions(options, [&](const char* key, const auto& field, const char*, const char*) {
@@ -84,7 +98,8 @@ void write(ByteWriter& out, const LabelOptions& options) {
   write(out, texts);
   out.number(static_cast<std::uint64_t>(options.sources.size()));
   for (const LabelSource& source : options.sources)
-    visitLabelSource(source, [&](const char*, const auto& field) { out.text(toString(field)); });
+    visitLabelSource(
+        source, [&](const char*, const auto& field, const char*) { out.text(toString(field)); });
 }
 
 LabelOptions readLabelOptions(ByteReader& in) {
@@ -92,16 +107,13 @@ LabelOptions readLabelOptions(ByteReader& in) {
   LabelOptions options;
   Texts texts = readTexts(in);
   visitLabelOptions(options, [&](const char* key, auto& field, const char*, const char*) {
-    const auto text = texts.find(key);
-    if (text == texts.end()) return;
-    parse(key, text->second, field);
-    texts.erase(text);
+    takeText(texts, key, field);
   });
-  if (!texts.empty())
-    throw std::runtime_error("serialised map: unknown option '" + texts.begin()->first + "'");
+  requireNoMore(texts);
   options.sources.resize(in.count(kSmallest));
   for (LabelSource& source : options.sources)
-    visitLabelSource(source, [&](const char* key, auto& field) { parse(key, in.text(), field); });
+    visitLabelSource(
+        source, [&](const char* key, auto& field, const char*) { parse(key, in.text(), field); });
   options.validate();
   return options;
 }
@@ -123,15 +135,35 @@ LikelihoodOptions readLikelihoodOptions(ByteReader& in, std::uint8_t version) {
   } else {
     Texts texts = readTexts(in);
     visitLikelihoodOptions(options, [&](const char* key, auto& field, const char*, const char*) {
-      const auto text = texts.find(key);
-      if (text == texts.end()) return;
-      parse(key, text->second, field);
-      texts.erase(text);
+      takeText(texts, key, field);
     });
-    if (!texts.empty())
-      throw std::runtime_error("serialised map: unknown option '" + texts.begin()->first + "'");
+    requireNoMore(texts);
   }
   options.validate();
+  return options;
+}
+
+/// By name, as above.
+void write(ByteWriter& out, const RenderingOptions& options) {
+  Texts texts;
+  visitRenderingOptions(options, [&](const char* key, const auto& field, const char*, const char*) {
+    texts[key] = toString(field);
+  });
+  write(out, texts);
+}
+
+RenderingOptions readRenderingOptions(ByteReader& in, std::uint8_t version) {
+  RenderingOptions options;
+  if (version < 3) {
+    options.occupied_voxels = in.flag();
+    options.free_voxels = in.flag();
+    return options;
+  }
+  Texts texts = readTexts(in);
+  visitRenderingOptions(options, [&](const char* key, auto& field, const char*, const char*) {
+    takeText(texts, key, field);
+  });
+  requireNoMore(texts);
   return options;
 }
 
@@ -273,9 +305,9 @@ void CSemanticContinuousMap::serializeTo(mrpt::serialization::CArchive& out) con
   block.reserve(map_.memoryBytes() + 512 * scans_.size());
   for (const bool flag :
        {genericMapParams.enableSaveAs3DObject, genericMapParams.enableObservationLikelihood,
-        genericMapParams.enableObservationInsertion, renderingOptions.occupied_voxels,
-        renderingOptions.free_voxels})
+        genericMapParams.enableObservationInsertion})
     block.number(static_cast<std::uint8_t>(flag));
+  write(block, static_cast<const RenderingOptions&>(renderingOptions));
   block.text(toString(insertionOptions.point_labels));
   block.text(insertionOptions.unlabelled_class);
   block.text(insertionOptions.scan_2d_class);
@@ -305,11 +337,10 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
   const Block bytes = readBlock(in);
   ByteReader block(bytes.data.get(), bytes.size);
   mrpt::maps::TMapGenericParams generic;
-  TRenderingOptions rendering;
-  for (bool* flag :
-       {&generic.enableSaveAs3DObject, &generic.enableObservationLikelihood,
-        &generic.enableObservationInsertion, &rendering.occupied_voxels, &rendering.free_voxels})
+  for (bool* flag : {&generic.enableSaveAs3DObject, &generic.enableObservationLikelihood,
+                     &generic.enableObservationInsertion})
     *flag = block.flag();
+  const RenderingOptions rendering = readRenderingOptions(block, version);
   TInsertionOptions insertion;
   parse("point_labels", block.text(), insertion.point_labels);
   insertion.unlabelled_class = block.text();
@@ -339,7 +370,7 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
   genericMapParams = generic;
   insertionOptions = insertion;
   static_cast<LikelihoodOptions&>(likelihoodOptions) = likelihood;
-  renderingOptions = rendering;
+  static_cast<RenderingOptions&>(renderingOptions) = rendering;
   labelOptions = std::move(label_options);
   adapter_ = std::move(adapter);
 }
