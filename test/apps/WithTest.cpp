@@ -21,8 +21,9 @@ class With : public testing::Test {
  protected:
   ProgramResult with(std::vector<std::string> command,
                      const std::vector<std::string>& environment = {}) {
-    command.insert(command.begin(),
-                   {"-C", folder_.path(), "timeout", "200", CSOM_PROGRAM, "with", "--"});
+    // A shell cannot trap what those who started the test have chosen to ignore.
+    command.insert(command.begin(), {"--default-signal=TERM,HUP,INT", "-C", folder_.path(),
+                                     "timeout", "200", CSOM_PROGRAM, "with", "--"});
     return runProgram(folder_.path(), "env", command, environment);
   }
   /// A small shell program, instead of one of MRPT's.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mrpt/maps/CMetricMap.h>
+#include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/version.h>
 
 /// MRPT 2.5.8 calls itself 0x258; versions with a byte for each number are larger than that.
@@ -23,5 +24,21 @@ using CreatedMap = mrpt::maps::CMetricMap::Ptr;
 #else
 using CreatedMap = mrpt::maps::CMetricMap*;
 #endif
+
+namespace detail {
+template <class Buffer>
+const Buffer& bufferOf(const Buffer& buffer) {
+  return buffer;
+}
+template <class Buffer>
+const Buffer& bufferOf(const Buffer* buffer) {
+  return *buffer;
+}
+}  // namespace detail
+
+/// The intensities of a cloud, which MRPT gives by reference, later versions by pointer.
+inline const auto& intensitiesOf(const mrpt::maps::CPointsMapXYZI& cloud) {
+  return detail::bufferOf(cloud.getPointsBufferRef_intensity());
+}
 
 }  // namespace csom
