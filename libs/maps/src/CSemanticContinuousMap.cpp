@@ -174,6 +174,16 @@ void CSemanticContinuousMap::replaceContent(SemanticMap voxels, std::vector<Scan
   invalidateCaches();
 }
 
+mrpt::math::TBoundingBoxf CSemanticContinuousMap::boundingBox() const {
+  const std::optional<VoxelBox> box = map_.boundingBox();
+  if (!box) return {{0, 0, 0}, {0, 0, 0}};
+  const Eigen::Vector3f min = map_.grid().lowerCorner(box->min).cast<float>();
+  const VoxelIndex& last = box->max;
+  const Eigen::Vector3f max =
+      map_.grid().lowerCorner({last.x + 1, last.y + 1, last.z + 1}).cast<float>();
+  return {{min.x(), min.y(), min.z()}, {max.x(), max.y(), max.z()}};
+}
+
 std::string CSemanticContinuousMap::asString() const {
   return "csom::CSemanticContinuousMap: " + std::to_string(map_.knownVoxelCount()) +
          " known voxels of " + toString(map_.options().resolution) + " m, " +
@@ -183,6 +193,7 @@ std::string CSemanticContinuousMap::asString() const {
 
 void CSemanticContinuousMap::saveMetricMapRepresentationToFile(const std::string& prefix) const {
   saveMap(document(), prefix + ".csom");
+  if (renderingOptions.save_scene) saveScene(prefix + ".3Dscene");
 }
 
 void CSemanticContinuousMap::auxParticleFilterCleanUp() {

@@ -45,12 +45,12 @@ void CSemanticPointsMap::TMapDefinition::dumpToTextStream_map_specific(std::ostr
   semantic.dumpToTextStream(out);
 }
 
-mrpt::maps::CMetricMap* CSemanticPointsMap::internal_CreateFromMapDefinition(
+CreatedMap CSemanticPointsMap::internal_CreateFromMapDefinition(
     const mrpt::maps::TMetricMapInitializer& initializer) {
   const auto& definition = dynamic_cast<const TMapDefinition&>(initializer);
   CSemanticContinuousMap map(definition.semantic);
   map.genericMapParams = definition.genericMapParams;
-  return new CSemanticPointsMap(std::move(map));
+  return CreatedMap(new CSemanticPointsMap(std::move(map)));
 }
 
 void CSemanticPointsMap::getVisualizationInto(mrpt::opengl::CSetOfObjects& scene) const {

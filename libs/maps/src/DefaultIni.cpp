@@ -3,7 +3,9 @@
 #include <csom/maps/CSemanticContinuousMap.h>
 #include <csom/maps/DefaultIni.h>
 
+#include <algorithm>
 #include <cstring>
+#include <initializer_list>
 
 namespace csom {
 namespace {
@@ -14,12 +16,18 @@ class IniText {
   void section(const std::string& suffix) {
     text_ += "\n[MappingApplication_semanticContinuousMap_00" + suffix + "]\n";
   }
+  /// A section that is not there by default.
+  void commentedSection(const std::string& suffix, const std::string& help) {
+    text_ += "\n; " + help + "\n;[MappingApplication_semanticContinuousMap_00" + suffix + "]\n";
+  }
 
   void key(const std::string& key, const std::string& value, const std::string& unit,
            const std::string& help) {
-    text_ += "; " + help + (unit.empty() ? "" : " [" + unit + "]") + "\n";
     // An empty value cannot be told from one that is missing.
-    text_ += (value.empty() ? ";" : "") + key + " = " + value + "\n";
+    write(key, value, help + (unit.empty() ? "" : " [" + unit + "]"), value.empty());
+  }
+  void commentedKey(const std::string& key, const std::string& value, const std::string& help) {
+    write(key, value, help, true);
   }
 
   /// For the visitors of options.
@@ -31,40 +39,85 @@ class IniText {
   const std::string& text() const { return text_; }
 
  private:
+  void write(const std::string& key, const std::string& value, const std::string& comment,
+             bool commented_out) {
+    text_ += "; " + comment + "\n" + (commented_out ? ";" : "") + key + " = " + value + "\n";
+  }
+
   std::string text_ =
       "; Every key of a semantic map with its default (docs/ini-reference.md).\n\n"
       "[MappingApplication]\n; one semantic map\nsemanticContinuousMap_count = 1\n";
 };
 
-bool comesFromLabelSet(const char* key) {
-  return std::strcmp(key, "number_of_classes") == 0 || std::strcmp(key, "unlabelled_class_id") == 0;
+bool isIn(const char* key, std::initializer_list<const char*> keys) {
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const char* one) { return std::strcmp(key, one) == 0; });
+}
+
+void writeCreation(IniText& ini) {
+  const Options options;
+  const mrpt::maps::TMapGenericParams generic;
+  ini.section("_creationOpts");
+  ini.key(
+      "label_set", "", "",
+      "classes of the map: a path (relative to the ini file, or to the working folder where the "
+      "application does not tell the file, as rbpf-slam and icp-slam do), or the name of one of "
+      "the label sets that are installed; without it the map has two classes, free and "
+      "occupied");
+  visitOptions(options,
+               [&](const char* key, const auto& field, const char* unit, const char* help) {
+                 if (isIn(key, {"resolution"})) ini(key, field, unit, help);
+               });
+  // MRPT reads these itself, and does not know our words.
+  const auto word = [](bool value) { return value ? "true" : "false"; };
+  ini.key("enableObservationInsertion", word(generic.enableObservationInsertion), "",
+          "MRPT: observations are inserted");
+  ini.key("enableObservationLikelihood", word(generic.enableObservationLikelihood), "",
+          "MRPT: the likelihood of observations is computed");
+  ini.key("enableSaveAs3DObject", word(generic.enableSaveAs3DObject), "",
+          "MRPT: the map is shown in 3-D views");
+}
+
+void writeInsertion(IniText& ini) {
+  const CSemanticContinuousMap::TInsertionOptions insertion;
+  const Options options;
+  ini.section("_insertOpts");
+  visitInsertionOptions(insertion, ini);
+  visitOptions(options,
+               [&](const char* key, const auto& field, const char* unit, const char* help) {
+                 // Those of the creation, and those that the label set says.
+                 if (!isIn(key, {"resolution", "number_of_classes", "unlabelled_class_id"}))
+                   ini(key, field, unit, help);
+               });
+}
+
+void writeLabelSource(IniText& ini) {
+  const LabelSource source;
+  ini.commentedSection("_labelSource_00",
+                       "a camera that labels the points of scans, or a sensor that needs none; the "
+                       "next one is _labelSource_01, without a gap");
+  visitLabelSource(source, [&](const char* key, const auto& field, const char* help) {
+    ini.commentedKey(key, toString(field), help);
+  });
 }
 
 }  // namespace
 
 std::string defaultIni() {
-  const CSemanticContinuousMap::TInsertionOptions insertion;
-  const Options options;
   const LabelOptions labels;
   const LikelihoodOptions likelihood;
-  const CSemanticContinuousMap::TRenderingOptions rendering;
+  const RenderingOptions rendering;
 
   IniText ini;
-  ini.section("_creationOpts");
-  ini.key("label_set", "", "",
-          "classes of the map: a name or a path; without it free and occupied");
-  ini.section("_insertOpts");
-  visitInsertionOptions(insertion, ini);
-  visitOptions(options,
-               [&](const char* key, const auto& field, const char* unit, const char* help) {
-                 if (!comesFromLabelSet(key)) ini(key, field, unit, help);
-               });
+  writeCreation(ini);
+  writeInsertion(ini);
   ini.section("_labelOpts");
   visitLabelOptions(labels, ini);
   ini.section("_likelihoodOpts");
   visitLikelihoodOptions(likelihood, ini);
   ini.section("_renderOpts");
   visitRenderingOptions(rendering, ini);
+  writeLabelSource(ini);  // last: what is commented out ends no section
   return ini.text();
 }
 

@@ -77,7 +77,8 @@ std::string existingFile(const std::string& path, const IniSection& section,
 
 LabelSource readLabelSource(IniSection& section, const CConfigFileBase& source) {
   LabelSource label_source;
-  visitLabelSource(label_source, [&](const char* key, auto& field) { section.read(key, field); });
+  visitLabelSource(label_source,
+                   [&](const char* key, auto& field, const char*) { section.read(key, field); });
   if (label_source.kind == LabelSource::Kind::Network) {
     if (!label_source.network.empty())
       label_source.network = existingFile(label_source.network, section, source, "network");
@@ -234,13 +235,14 @@ void CSemanticContinuousMap::TMapDefinition::dumpToTextStream_map_specific(
     dump(out, key, toString(field));
   });
   for (const LabelSource& source : labelOpts.sources)
-    visitLabelSource(source,
-                     [&](const char* key, const auto& field) { dump(out, key, toString(field)); });
+    visitLabelSource(source, [&](const char* key, const auto& field, const char*) {
+      dump(out, key, toString(field));
+    });
 }
 
-mrpt::maps::CMetricMap* CSemanticContinuousMap::internal_CreateFromMapDefinition(
+CreatedMap CSemanticContinuousMap::internal_CreateFromMapDefinition(
     const mrpt::maps::TMetricMapInitializer& definition) {
-  return new CSemanticContinuousMap(dynamic_cast<const TMapDefinition&>(definition));
+  return CreatedMap(new CSemanticContinuousMap(dynamic_cast<const TMapDefinition&>(definition)));
 }
 
 CSemanticContinuousMap::CSemanticContinuousMap(const TMapDefinition& definition)

@@ -43,7 +43,7 @@ const mrpt::maps::CMetricMap& pointsOf(const mrpt::maps::CMetricMap* other) {
 }
 
 std::vector<ClassId> classesOf(const mrpt::maps::CPointsMapXYZI& cloud, const LabelRules& rules) {
-  const auto& intensities = cloud.getPointsBufferRef_intensity();
+  const auto& intensities = intensitiesOf(cloud);
   if (intensities.size() != cloud.size()) return {};
   std::vector<ClassId> classes;
   classes.reserve(intensities.size());

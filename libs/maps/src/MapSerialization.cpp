@@ -16,8 +16,8 @@
 namespace csom {
 namespace {
 
-/// 1: labels from cameras. 2: options of the likelihood by name.
-constexpr std::uint8_t kVersion = 2;
+/// 1: labels from cameras. 2: options of the likelihood by name. 3: those of views by name.
+constexpr std::uint8_t kVersion = 3;
 
 using Texts = std::map<std::string, std::string>;
 using Counts = std::map<std::string, std::size_t>;
@@ -96,7 +96,8 @@ void write(ByteWriter& out, const LabelOptions& options) {
   writeByName(out, [&](auto&& visitor) { visitLabelOptions(options, visitor); });
   out.number(static_cast<std::uint64_t>(options.sources.size()));
   for (const LabelSource& source : options.sources)
-    visitLabelSource(source, [&](const char*, const auto& field) { out.text(toString(field)); });
+    visitLabelSource(
+        source, [&](const char*, const auto& field, const char*) { out.text(toString(field)); });
 }
 
 LabelOptions readLabelOptions(ByteReader& in) {
@@ -105,7 +106,8 @@ LabelOptions readLabelOptions(ByteReader& in) {
   readByName(in, [&](auto&& visitor) { visitLabelOptions(options, visitor); });
   options.sources.resize(in.count(kSmallest));
   for (LabelSource& source : options.sources)
-    visitLabelSource(source, [&](const char* key, auto& field) { parse(key, in.text(), field); });
+    visitLabelSource(
+        source, [&](const char* key, auto& field, const char*) { parse(key, in.text(), field); });
   options.validate();
   return options;
 }
@@ -124,6 +126,21 @@ LikelihoodOptions readLikelihoodOptions(ByteReader& in, std::uint8_t version) {
     readByName(in, [&](auto&& visitor) { visitLikelihoodOptions(options, visitor); });
   }
   options.validate();
+  return options;
+}
+
+void write(ByteWriter& out, const RenderingOptions& options) {
+  writeByName(out, [&](auto&& visitor) { visitRenderingOptions(options, visitor); });
+}
+
+RenderingOptions readRenderingOptions(ByteReader& in, std::uint8_t version) {
+  RenderingOptions options;
+  if (version < 3) {
+    options.occupied_voxels = in.flag();
+    options.free_voxels = in.flag();
+    return options;
+  }
+  readByName(in, [&](auto&& visitor) { visitRenderingOptions(options, visitor); });
   return options;
 }
 
@@ -265,9 +282,9 @@ void CSemanticContinuousMap::serializeTo(mrpt::serialization::CArchive& out) con
   block.reserve(map_.memoryBytes() + 512 * scans_.size());
   for (const bool flag :
        {genericMapParams.enableSaveAs3DObject, genericMapParams.enableObservationLikelihood,
-        genericMapParams.enableObservationInsertion, renderingOptions.occupied_voxels,
-        renderingOptions.free_voxels})
+        genericMapParams.enableObservationInsertion})
     block.number(static_cast<std::uint8_t>(flag));
+  write(block, static_cast<const RenderingOptions&>(renderingOptions));
   block.text(toString(insertionOptions.point_labels));
   block.text(insertionOptions.unlabelled_class);
   block.text(insertionOptions.scan_2d_class);
@@ -297,11 +314,10 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
   const Block bytes = readBlock(in);
   ByteReader block(bytes.data.get(), bytes.size);
   mrpt::maps::TMapGenericParams generic;
-  TRenderingOptions rendering;
-  for (bool* flag :
-       {&generic.enableSaveAs3DObject, &generic.enableObservationLikelihood,
-        &generic.enableObservationInsertion, &rendering.occupied_voxels, &rendering.free_voxels})
+  for (bool* flag : {&generic.enableSaveAs3DObject, &generic.enableObservationLikelihood,
+                     &generic.enableObservationInsertion})
     *flag = block.flag();
+  const RenderingOptions rendering = readRenderingOptions(block, version);
   TInsertionOptions insertion;
   parse("point_labels", block.text(), insertion.point_labels);
   insertion.unlabelled_class = block.text();
@@ -331,7 +347,7 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
   genericMapParams = generic;
   insertionOptions = insertion;
   static_cast<LikelihoodOptions&>(likelihoodOptions) = likelihood;
-  renderingOptions = rendering;
+  static_cast<RenderingOptions&>(renderingOptions) = rendering;
   labelOptions = std::move(label_options);
   adapter_ = std::move(adapter);
 }

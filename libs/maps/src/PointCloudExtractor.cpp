@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points of CObservationPointCloud.
+#include <csom/maps/MrptCompatibility.h>
 #include <mrpt/maps/CColouredPointsMap.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -24,7 +25,7 @@ std::uint8_t toByte(float channel) {
 }
 
 std::vector<PointLabel> labelsByIntensity(const CPointsMapXYZI& cloud, const LabelRules& rules) {
-  const auto& intensities = cloud.getPointsBufferRef_intensity();
+  const auto& intensities = intensitiesOf(cloud);
   // Some ways of filling this class leave more intensities than points: then no point's own label
   // is known.
   if (intensities.size() != cloud.size()) {

@@ -9,16 +9,19 @@
 #include <csom/maps/LabelOptions.h>
 #include <csom/maps/LabelRules.h>
 #include <csom/maps/LikelihoodOptions.h>
+#include <csom/maps/MrptCompatibility.h>
 #include <csom/maps/NearestVoxelField.h>
 #include <csom/maps/ObservationAdapter.h>
 #include <csom/maps/ObservedPoints.h>
 #include <csom/maps/OccupiedPoints.h>
+#include <csom/maps/RenderingOptions.h>
 #include <csom/maps/SharedLabels.h>
 #include <csom/maps/SurfacePoints.h>
 #include <mrpt/config/CConfigFileBase.h>
 #include <mrpt/config/CLoadableOptions.h>
 #include <mrpt/maps/CMetricMap.h>
 #include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/math/TBoundingBox.h>
 
 #include <map>
 #include <memory>
@@ -90,10 +93,7 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
     void dumpToTextStream(std::ostream& out) const override;
   };
 
-  struct TRenderingOptions : public mrpt::config::CLoadableOptions {
-    bool occupied_voxels = true;
-    bool free_voxels = false;
-
+  struct TRenderingOptions : public mrpt::config::CLoadableOptions, public RenderingOptions {
     void loadFromConfigFile(const mrpt::config::CConfigFileBase& source,
                             const std::string& section) override;
     void dumpToTextStream(std::ostream& out) const override;
@@ -174,9 +174,13 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   explicit CSemanticContinuousMap(const TMapDefinition& definition);
 
   bool isEmpty() const override { return map_.empty(); }
+  /// Of all known voxels, from corner to corner [m]; from 0 to 0 if there are none.
+  mrpt::math::TBoundingBoxf boundingBox() const CSOM_OVERRIDE_SINCE_2_11_3;
   std::string asString() const override;
   void getVisualizationInto(mrpt::opengl::CSetOfObjects& scene) const override;
-  /// Writes PREFIX.csom. Throws FileError.
+  /// What 3-D views show, as a .3Dscene of MRPT. Throws FileError.
+  void saveScene(const std::string& file) const;
+  /// Writes PREFIX.csom, and with save_scene PREFIX.3Dscene. Throws FileError.
   void saveMetricMapRepresentationToFile(const std::string& prefix) const override;
   void auxParticleFilterCleanUp() override;
 
@@ -246,20 +250,14 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
 template <class InsertionOptionsLike, class Visitor>
 void visitInsertionOptions(InsertionOptionsLike&& o, Visitor&& visitor) {
   visitor("point_labels", o.point_labels, "",
-          "where the labels of points are: none | intensity | color");
-  visitor(
-      "unlabelled_class", o.unlabelled_class, "",
-      "class of points without a label, or drop; without it occupied or else unlabelled, if the "
-      "label set has it, else drop");
+          "where the labels of points are: nowhere (none); the intensity of a point is a raw id of "
+          "the label set (intensity); its colour is exactly that of a class (color). Labels of "
+          "pixels are used whenever an observation has them");
+  visitor("unlabelled_class", o.unlabelled_class, "",
+          "class of points without a label, or drop; without this key the class `occupied` or else "
+          "`unlabelled`, if the label set has it, else drop");
   visitor("scan_2d_class", o.scan_2d_class, "",
-          "class of all rays of 2-D laser scans, or drop; without it as unlabelled_class");
-}
-
-/// The same.
-template <class RenderingOptionsLike, class Visitor>
-void visitRenderingOptions(RenderingOptionsLike&& o, Visitor&& visitor) {
-  visitor("occupied_voxels", o.occupied_voxels, "", "3-D views show occupied voxels");
-  visitor("free_voxels", o.free_voxels, "", "3-D views show free voxels, faintly");
+          "class of all rays of 2-D laser scans, or drop; without this key as unlabelled_class");
 }
 
 }  // namespace csom

@@ -35,7 +35,7 @@ class CSemanticPointsMap : public mrpt::maps::CSimplePointsMap {
 
   std::string asString() const override { return semantic_.asString(); }
   void getVisualizationInto(mrpt::opengl::CSetOfObjects& scene) const override;
-  /// Writes PREFIX.csom. Throws FileError.
+  /// As CSemanticContinuousMap.
   void saveMetricMapRepresentationToFile(const std::string& prefix) const override;
   void determineMatching2D(const mrpt::maps::CMetricMap* other,
                            const mrpt::poses::CPose2D& other_pose,

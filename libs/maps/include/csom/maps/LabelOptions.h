@@ -48,27 +48,47 @@ struct LabelOptions {
 /// Calls `visitor(key, field, unit, help)` for every field but the sources.
 template <class LabelOptionsLike, class Visitor>
 void visitLabelOptions(LabelOptionsLike& o, Visitor&& visitor) {
-  visitor("label_mode", o.points.label_mode, "", "hard | soft");
-  visitor("temperature", o.points.temperature, "", "soft: of the softmax, above 1 is less sure");
-  visitor("min_confidence", o.points.min_confidence, "", "of a point's best class, 0 to 1");
-  visitor("low_confidence", o.points.low_confidence, "", "points below it: drop | soft");
-  visitor("max_time_offset", o.max_time_offset, "s", "between a scan and its images");
-  visitor("outside_view", o.outside_view, "", "points that no camera sees: drop | unlabelled");
-  visitor("visibility", o.points.visibility, "", "reject points that the camera does not see");
-  visitor("visibility_margin", o.points.visibility_margin, "m", "nearer by less does not hide");
-  visitor("edge_margin", o.points.edge_margin, "px", "rejected around borders with a depth jump");
-  visitor("several_cameras", o.points.several_cameras, "", "nearest-to-centre | vote");
-  visitor("label_cache", o.label_cache, "", "folder for what networks said, empty = none");
+  visitor("label_mode", o.points.label_mode, "",
+          "a point takes the best class (hard), or the distribution over the classes (soft)");
+  visitor("temperature", o.points.temperature, "",
+          "of the softmax; above 1 is less sure of the best class");
+  visitor("min_confidence", o.points.min_confidence, "",
+          "points whose best class is less sure are treated as low_confidence says, 0 to 1");
+  visitor("low_confidence", o.points.low_confidence, "",
+          "such points are left out (drop) or keep their distribution (soft)");
+  visitor("max_time_offset", o.max_time_offset, "s", "between a scan and the images that label it");
+  visitor(
+      "outside_view", o.outside_view, "",
+      "points that no camera sees are left out (drop), as in the paper, or become occupied by a "
+      "class `unlabelled`, which is added to the label set and which any label outvotes "
+      "(unlabelled)");
+  visitor("visibility", o.points.visibility, "",
+          "points that something nearer hides from the camera are rejected");
+  visitor("visibility_margin", o.points.visibility_margin, "m",
+          "what is nearer by less does not hide");
+  visitor("edge_margin", o.points.edge_margin, "pixels",
+          "points so near to a label border are rejected if the depth jumps there; 0 keeps them");
+  visitor("several_cameras", o.points.several_cameras, "",
+          "of several cameras that see a point the one counts in whose image it is nearest to the "
+          "centre (nearest-to-centre), or all (vote)");
+  visitor("label_cache", o.label_cache, "",
+          "folder in which what networks said is kept for the next run; without it none");
 }
 
-/// Visits the fields of one source.
+/// Calls `visitor(key, field, help)` for every field of one source.
 template <class LabelSourceLike, class Visitor>
 void visitLabelSource(LabelSourceLike& source, Visitor&& visitor) {
-  visitor("sensor_label", source.sensor_label);
-  visitor("source", source.kind);
-  visitor("network", source.network);
-  visitor("model", source.model);
-  visitor("label_image", source.label_image);
+  visitor("sensor_label", source.sensor_label,
+          "of the camera's images; of the sensor that labels itself");
+  visitor("source", source.kind,
+          "network: the images go through a segmentation network; label_image: images of raw ids "
+          "come with a sensor label of their own; pixel_labels: a CObservation3DRangeScan with "
+          "labels of its pixels; point_labels: the points of this sensor carry their labels");
+  visitor("network", source.network,
+          "network: its description, a path relative to the ini file or to the working folder");
+  visitor("model", source.model, "network: the model, if it is not where the description says");
+  visitor("label_image", source.label_image,
+          "label_image: sensor label of the images of raw ids (8 or 16 bits, gray)");
 }
 
 /// Words as in ini files; texts are values of themselves. Parsing throws OptionError.

@@ -39,13 +39,16 @@ template <class LikelihoodOptionsLike, class Visitor>
 void visitLikelihoodOptions(LikelihoodOptionsLike& o, Visitor&& visitor) {
   visitor("method", o.method, "",
           "a point is compared with the nearest occupied voxel (field), or with the first one on "
-          "its beam (beam): field | beam");
+          "its beam (beam)");
   visitor("decimation", o.decimation, "", "uses one point out of so many");
   visitor("max_distance", o.max_distance, "m", "distances beyond count as this one");
   visitor("sigma", o.sigma, "m", "standard deviation of the distance");
-  visitor("semantic_weight", o.semantic_weight, "",
-          "how much the labels of the points count, 0 = not at all");
-  visitor("label_error", o.label_error, "", "share of labels that are wrong, above 0 to 1");
+  visitor(
+      "semantic_weight", o.semantic_weight, "",
+      "how much the labels of the points count, 0 = not at all. Points that carry no label, and "
+      "those that cameras label, do not take part");
+  visitor("label_error", o.label_error, "",
+          "share of labels that are wrong, above 0 to 1: smaller punishes a wrong label more");
 }
 
 }  // namespace csom

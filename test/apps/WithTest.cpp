@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// csom with: MRPT's own programs, started by csom.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <regex>
+
+#include "apps/RunCsom.h"
+#include "io/IoFixtures.h"
+
+namespace csom::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kConfigs = CSOM_SOURCE_DIR "/config/mrpt/";
+const std::string kDataSets = "/usr/share/mrpt/datasets/";  // of the package mrpt-common
+
+class With : public testing::Test {
+ protected:
+  ProgramResult with(std::vector<std::string> command,
+                     const std::vector<std::string>& environment = {}) {
+    // A shell cannot trap what those who started the test have chosen to ignore.
+    command.insert(command.begin(), {"--default-signal=TERM,HUP,INT", "-C", folder_.path(),
+                                     "timeout", "200", CSOM_PROGRAM, "with", "--"});
+    return runProgram(folder_.path(), "env", command, environment);
+  }
+  /// A small shell program, instead of one of MRPT's.
+  ProgramResult withShell(const std::string& script,
+                          const std::vector<std::string>& environment = {}) {
+    return with({"sh", "-c", script}, environment);
+  }
+  const TempFolder folder_;
+};
+
+TEST_F(With, icpSlamLeavesAMapThatIsNamed) {
+  const ProgramResult run =
+      with({"icp-slam", kConfigs + "icp-slam.ini",
+            kDataSets + "2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog"});
+  EXPECT_EQ(run.exit_code, 0) << run.errors;
+  std::smatch told;
+  const std::regex line("csom: wrote (\\S+): (\\d+) observations, [\\d,]+ known voxels\n");
+  ASSERT_TRUE(std::regex_search(run.errors, told, line)) << run.errors;
+  const MapDocument document = loadMap(folder_ / told[1].str());
+  EXPECT_EQ(document.scans.size(), std::stoul(told[2]));
+  EXPECT_GT(document.scans.size(), 20u);
+}
+
+TEST_F(With, aPrefixMayNameWhereMapsGo) {
+  std::filesystem::create_directory(folder_ / "maps");
+  const ProgramResult run = with({"observations2map", kConfigs + "observations2map.ini",
+                                  kDataSets + "localization_demo.simplemap.gz", "maps/demo"});
+  EXPECT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_THAT(run.errors,
+              HasSubstr("csom: wrote maps/demo_csom__CSemanticContinuousMap_00.csom: "));
+}
+
+TEST_F(With, mapsThatWereThereBeforeAreNotTold) {
+  writeBytes(folder_ / "old.csom", "");
+  const ProgramResult run = withShell("true");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.errors, HasSubstr("csom: warning: sh left no map (.csom)"));
+  EXPECT_THAT(run.errors, Not(HasSubstr("old.csom")));
+}
+
+TEST_F(With, aDamagedMapIsSaidToBe) {
+  const ProgramResult run = withShell("echo nonsense >new.csom");
+  EXPECT_THAT(run.errors, HasSubstr("csom: warning: wrote a map that is damaged: new.csom: "));
+}
+
+TEST_F(With, preloadsThePluginBesideWhatIsPreloadedAnyway) {
+  const std::string plugin = std::filesystem::canonical(CSOM_PLUGIN).string();
+  EXPECT_EQ(withShell("echo \"$LD_PRELOAD\"").output, plugin + "\n");
+  const ProgramResult both = withShell("echo \"$LD_PRELOAD\"", {"LD_PRELOAD=libm.so.6"});
+  EXPECT_EQ(both.output, plugin + ":libm.so.6\n");
+}
+
+TEST_F(With, exitCodesAndSignalsArePassedThrough) {
+  EXPECT_EQ(withShell("exit 7").exit_code, 7);
+  const ProgramResult crashed = withShell("kill -SEGV $$");
+  EXPECT_EQ(crashed.exit_code, 128 + 11);
+  EXPECT_THAT(crashed.errors, HasSubstr("csom: sh was ended by signal 11 (Segmentation fault)"));
+}
+
+TEST_F(With, passesSignalsOnToTheProgram) {
+  for (const std::string name : {"TERM", "HUP", "INT"}) {
+    const ProgramResult run = withShell("trap 'exit 5' " + name + "; kill -" + name +
+                                        " $PPID; while :; do sleep 0.02; done");
+    EXPECT_EQ(run.exit_code, 5) << name << run.errors;
+  }
+}
+
+TEST_F(With, aProgramThatCannotBeStarted) {
+  const ProgramResult run = with({"no-such-slam", "a"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.errors,
+              HasSubstr("csom: 'no-such-slam' cannot be started: No such file or directory"));
+}
+
+TEST_F(With, anIniInWhichMrptFindsNoMapIsNotRun) {
+  writeBytes(folder_ / "my.ini", "[MappingApplication]\nsemanticContinousMap_count = 1\n");
+  const ProgramResult run = with({"observations2map", "my.ini", "x.simplemap", "out"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(run.output, "") << "observations2map was not started";
+  EXPECT_EQ(run.errors,
+            "csom: my.ini [MappingApplication] semanticContinousMap_count: MRPT knows no such map "
+            "and would pass over it; write 'semanticContinuousMap_count = 1' in "
+            "[MappingApplication]\n");
+}
+
+TEST_F(With, mapPartitionReadsItsIniFromTheWorkingFolder) {
+  const ProgramResult run = with({"map-partition", "x.simplemap"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.errors, HasSubstr("MAP-PARTITION_CONFIG.ini: no such file"));
+}
+
+TEST_F(With, saysThatThereWasNothingToCheck) {
+  EXPECT_THAT(withShell("true").errors, HasSubstr("sh: no .ini among its arguments"));
+  const ProgramResult edit = with({"rawlog-edit", "--version"});
+  EXPECT_THAT(edit.errors, HasSubstr("rawlog-edit has ended; it saves no maps"));
+  EXPECT_THAT(edit.errors, Not(HasSubstr("no .ini")));
+}
+
+}  // namespace
+}  // namespace csom::test
