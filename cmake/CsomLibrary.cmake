@@ -25,7 +25,8 @@ function(csom_add_library name)
   set_property(GLOBAL APPEND PROPERTY CSOM_LIBRARIES csom-${name})
 endfunction()
 
-# csom_add_test(core/GridTest LINK csom::core …): test/core/GridTest.cpp becomes a program of its own.
+# csom_add_test(core/GridTest LINK csom::core …): test/core/GridTest.cpp becomes a program of its own,
+# which the target tests-core builds.
 #   SOURCES …   further source files
 #   REAL_DATA   label `real-data`: needs the folder named by the environment variable CSOM_DATA
 #   MRPT_APPS   label `mrpt-apps`: loads the plug-in into MRPT's own programs
@@ -34,6 +35,11 @@ function(csom_add_test path)
   cmake_parse_arguments(arg "REAL_DATA;MRPT_APPS;RUN_SERIAL" "" "SOURCES;LINK" ${ARGN})
   string(REPLACE "/" "_" target ${path})
   add_executable(${target} ${CMAKE_SOURCE_DIR}/test/${path}.cpp ${arg_SOURCES})
+  get_filename_component(folder ${path} DIRECTORY)
+  if(NOT TARGET tests-${folder})
+    add_custom_target(tests-${folder})
+  endif()
+  add_dependencies(tests-${folder} ${target})
   target_link_libraries(${target} PRIVATE ${arg_LINK} csom_warnings GTest::gmock GTest::gtest_main)
   target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/test)
   target_compile_definitions(${target} PRIVATE
