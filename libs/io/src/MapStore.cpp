@@ -193,7 +193,7 @@ class MapStore::Content {
     // every commit. The cache is small: chunks are not read twice.
     database_.execute(
         "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA secure_delete = ON;"
-        "PRAGMA cache_size = -8000; PRAGMA journal_size_limit = 0");
+        "PRAGMA cache_size = -4000; PRAGMA journal_size_limit = 0");
     meta_ = detail::readTexts(database_, "meta");
     requireUnfinished(database_, meta_);
     option_texts_ = detail::readTexts(database_, "options");
