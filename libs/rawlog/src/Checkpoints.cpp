@@ -20,6 +20,14 @@ constexpr auto kBetweenLooks = std::chrono::milliseconds(100);
 /// The scan at hand may add so much to what is there before anybody looks, and a commit needs some.
 constexpr std::size_t kForOneScan = 32'000'000;
 
+/// What a scan needs for a moment is many megabytes: given back at once, not kept for the next one.
+void keepNoFreedMemory() {
+  constexpr int kLargeBlock = 1 << 18;
+  constexpr int kMostKept = 1 << 22;
+  mallopt(M_MMAP_THRESHOLD, kLargeBlock);
+  mallopt(M_TRIM_THRESHOLD, kMostKept);
+}
+
 std::string savedScans(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " scan is" : " scans are") + " saved";
 }
@@ -29,6 +37,7 @@ std::string savedScans(std::size_t count) {
 Checkpoints::Checkpoints(const CheckpointRequest& request, const MappingRequest& mapping,
                          CSemanticContinuousMap::Ptr& map, MappingState& state)
     : request_(request) {
+  if (request_.max_memory) keepNoFreedMemory();
   writeInputs(mapping, constant_);
   if (request_.resume) {
     resume(map, state);
