@@ -76,7 +76,7 @@ void check(const MapArguments& arguments) {
   if (arguments.resume.empty()) {
     if (arguments.logs.empty()) throw ConfigError("LOG is required: name a rawlog or a simplemap");
     if (arguments.config.empty()) throw ConfigError("--config is required: name an ini file");
-    if (arguments.output.empty()) throw ConfigError("--output is required: name a folder");
+    if (arguments.output.empty()) throw ConfigError("--output is empty: name a folder");
     return;
   }
   if (!arguments.logs.empty() || !arguments.config.empty() || !arguments.output.empty() ||

@@ -11,6 +11,8 @@ std::string mappingStatus(const MappingProgress& now, double seconds) {
   if (seconds > 0) text += " (" + formatNumber(static_cast<double>(now.scans) / seconds) + "/s)";
   text += ", " + formatCount(now.map.knownVoxelCount(), "voxel") + " in " +
           formatBytes(now.map.memoryBytes());
+  if (now.chunks_on_disk > 0)
+    text += " and " + formatCount(now.chunks_on_disk, "chunk") + " on the disk";
   if (now.points_rejected > 0)
     text += ", " + formatCount(now.points_rejected, "point") + " rejected";
   if (now.observations_refused > 0)

@@ -76,8 +76,9 @@ OutputFolder::OutputFolder(const std::string& path, const std::vector<std::strin
 
 StagedResults::StagedResults(const OutputFolder& target)
     : target_(target), path_(target.path() / (kStaging + std::to_string(::getpid()))) {
-  created_ = missingFolders(path_);
   std::error_code error;
+  fs::remove_all(path_, error);  // a dead process may have had our number
+  created_ = missingFolders(path_);
   fs::create_directories(path_, error);
   if (error) throw FileError(path_.string(), "cannot be created: " + error.message());
   removeWhatTheDeadLeft(target.path());

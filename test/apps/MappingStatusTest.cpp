@@ -34,6 +34,8 @@ TEST(MappingStatus, TellsSpeedSizeAndRejects) {
                     HasSubstr(" bytes, 12,345 points rejected, 1 observation refused")));
   EXPECT_THAT(mappingStatus({log, 10, 20, 1, 0, 0, map}, 0),
               AllOf(HasSubstr("1 scan, "), Not(HasSubstr("rejected")), Not(HasSubstr("refused"))));
+  EXPECT_THAT(mappingStatus({log, 10, 20, 1, 0, 0, map, 4321}, 0),
+              HasSubstr(" bytes and 4,321 chunks on the disk"));
 }
 
 TEST(MappingStatus, OnATerminalKeepsToOneLineAndIsWiped) {

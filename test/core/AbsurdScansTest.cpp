@@ -20,10 +20,10 @@ std::size_t peakBytes() {
 }
 
 /// One process for each of them: a peak is never forgotten.
-class AbsurdScans : public testing::TestWithParam<Method> {
+class AbsurdScans : public testing::TestWithParam<const char*> {
  protected:
   AbsurdScans() {
-    options.method = GetParam();
+    parse("method", GetParam(), options.method);
     options.resolution = 0.2;
     options.ds_resolution = 0.1;
     options.free_space = FreeSpace::Raycast;
@@ -51,9 +51,11 @@ TEST_P(AbsurdScans, TenMillionPoints) {
 TEST_P(AbsurdScans, TenMillionPointsAtOnePlace) {
   for (const double cell : {0.1, 0.0}) {
     options.ds_resolution = cell;
+    // Without down-sampling every one of them has its kernel.
+    const std::size_t points = cell > 0 ? kMany : kMany / 10;
     Scan scan;
-    scan.points.assign(kMany, Eigen::Vector3f(3, 2, 1));
-    scan.labels.assign(kMany, 1);
+    scan.points.assign(points, Eigen::Vector3f(3, 2, 1));
+    scan.labels.assign(points, 1);
     const std::size_t before = peakBytes();
     SemanticMap map(options);
     const ScanReport report = map.insert(scan);
@@ -97,10 +99,9 @@ TEST_P(AbsurdScans, ASensorFarOutside) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, AbsurdScans,
-                         testing::Values(Method::SurfaceCsom, Method::SeeCsom, Method::SBki,
-                                         Method::SCsm),
+                         testing::Values("surface-csom", "see-csom", "s-bki", "s-csm"),
                          [](const auto& test) {
-                           std::string name = toString(test.param);
+                           std::string name = test.param;
                            name.erase(name.find('-'), 1);
                            return name;
                          });

@@ -163,7 +163,6 @@ TEST_F(MapStoreTest, ManyReadWhileOneWrites) {
   constexpr int kScans = 25, kReaders = 3;
   std::vector<std::string> digests;
   for (int i = 0; i <= kScans; ++i) digests.push_back(mapDigest(mapOf(i)));
-  auto store = MapStore::create(file_, emptyDocument(), {});
   std::vector<pid_t> readers;
   for (int r = 0; r < kReaders; ++r) {
     const pid_t pid = ::fork();
@@ -175,6 +174,7 @@ TEST_F(MapStoreTest, ManyReadWhileOneWrites) {
     // Until all scans are there; what is read must be what was committed, and never older than
     // what was read before.
     std::size_t last = 0;
+    while (!std::filesystem::exists(file_)) ::usleep(100);
     while (last < kScans) {
       try {
         const MapDocument seen = loadMap(file_);
@@ -188,6 +188,8 @@ TEST_F(MapStoreTest, ManyReadWhileOneWrites) {
     }
     ::_exit(0);
   }
+  // Only now: a connection must not be carried over into another process.
+  auto store = MapStore::create(file_, emptyDocument(), {});
   for (int i = 0; i < kScans; ++i) addScan(*store, i);
   for (const pid_t reader : readers) {
     int status = -1;

@@ -50,9 +50,9 @@ class CheckpointsTest : public testing::Test {
 
   /// The map of a run that stops after every `entries` entries and is gone on with.
   std::string stoppedAfter(int entries, std::optional<std::size_t> max_memory = {}) const {
-    for (bool resume = false;; resume = true) {
+    for (;;) {
       int left = entries;
-      CheckpointRequest checkpoints = everyEntry(resume);
+      CheckpointRequest checkpoints = everyEntry(std::filesystem::exists(file));
       checkpoints.seconds = 1e6;
       checkpoints.max_memory = max_memory;
       checkpoints.stop = [&left] { return --left == 0; };
@@ -83,7 +83,8 @@ class CheckpointsTest : public testing::Test {
 
 TEST_F(CheckpointsTest, EveryEntryIsAPlaceToStop) {
   const std::string expected = undisturbed();
-  for (const int entries : {1, 2, 3, 5}) EXPECT_EQ(stoppedAfter(entries), expected) << entries;
+  // The first entry is a pose: a run that stops there has nothing to go on with.
+  for (const int entries : {2, 3, 5}) EXPECT_EQ(stoppedAfter(entries), expected) << entries;
 }
 
 TEST_F(CheckpointsTest, LittleMemoryMakesTheSameMap) {
@@ -173,17 +174,19 @@ TEST_F(CheckpointsTest, ARunThatHasDoneNothingLeavesNothing) {
 }
 
 TEST_F(CheckpointsTest, MemoryThatRunsShortEndsTheRunWithAllSaved) {
-  const std::string expected = undisturbed();
+  // It is asked ten times a second at most: a short run would come to its end before.
+  request.logs.assign(400, request.logs.front());
+  std::size_t scans = 0;
   CheckpointRequest checkpoints = everyEntry();
   checkpoints.seconds = 1e6;
-  checkpoints.memory_shortage = [this]() -> std::optional<std::string> {
+  checkpoints.memory_shortage = [&scans]() -> std::optional<std::string> {
+    if (scans == 0) return std::nullopt;
     return "3 MB are left of a test";
   };
   std::string message;
   try {
-    // Asked ten times a second at most: until then it goes on, and a short run may end.
-    request.logs.assign(400, request.logs.front());
-    mapLogs(request, {}, checkpoints);
+    mapLogs(
+        request, [&scans](const MappingProgress& now) { scans = now.scans; }, checkpoints);
   } catch (const std::runtime_error& error) {
     message = error.what();
   }

@@ -63,6 +63,18 @@ class Leftover {
   std::string path_;
 };
 
+/// Gives the file `path` the name `file`, or returns false with errno. Unlike a rename, a link does
+/// not replace what another process has just made; some file systems have no links.
+bool giveName(const std::string& path, const std::string& file) {
+  if (::link(path.c_str(), file.c_str()) == 0) return true;
+  if (errno != EPERM && errno != EOPNOTSUPP && errno != ENOSYS) return false;
+  if (::access(file.c_str(), F_OK) == 0) {
+    errno = EEXIST;
+    return false;
+  }
+  return ::rename(path.c_str(), file.c_str()) == 0;
+}
+
 /// Rolls back unless commit() was called.
 class Transaction {
  public:
@@ -181,7 +193,7 @@ class MapStore::Content {
     // every commit. The cache is small: chunks are not read twice.
     database_.execute(
         "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA secure_delete = ON;"
-        "PRAGMA cache_size = -8000; PRAGMA journal_size_limit = 0");
+        "PRAGMA cache_size = -4000; PRAGMA journal_size_limit = 0");
     meta_ = detail::readTexts(database_, "meta");
     requireUnfinished(database_, meta_);
     option_texts_ = detail::readTexts(database_, "options");
@@ -330,8 +342,7 @@ std::unique_ptr<MapStore> MapStore::create(const std::string& file, const MapDoc
   }
   auto lock = std::make_unique<detail::FileLock>(path, file);
   if (!lock->sync()) throw FileError(file, "cannot be flushed to the disk");
-  // Unlike a rename, a link does not replace what another process has just made.
-  if (::link(path.c_str(), file.c_str()) != 0)
+  if (!giveName(path, file))
     throw FileError(file, errno == EEXIST ? "is there already, of a run that has not been finished"
                                           : std::string("cannot be made: ") + std::strerror(errno));
   return std::unique_ptr<MapStore>(new MapStore(std::make_unique<Content>(file, std::move(lock))));

@@ -7,6 +7,7 @@
 #include <mrpt/system/os.h>
 #include <opencv2/core/version.hpp>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -15,6 +16,17 @@ namespace {
 
 /// Asking the system for its memory takes longer than a small scan.
 constexpr auto kBetweenLooks = std::chrono::milliseconds(100);
+
+/// The scan at hand may add so much to what is there before anybody looks, and a commit needs some.
+constexpr std::size_t kForOneScan = 32'000'000;
+
+/// What a scan needs for a moment is many megabytes: given back at once, not kept for the next one.
+void keepNoFreedMemory() {
+  constexpr int kLargeBlock = 1 << 18;
+  constexpr int kMostKept = 1 << 22;
+  mallopt(M_MMAP_THRESHOLD, kLargeBlock);
+  mallopt(M_TRIM_THRESHOLD, kMostKept);
+}
 
 std::string savedScans(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " scan is" : " scans are") + " saved";
@@ -25,6 +37,7 @@ std::string savedScans(std::size_t count) {
 Checkpoints::Checkpoints(const CheckpointRequest& request, const MappingRequest& mapping,
                          CSemanticContinuousMap::Ptr& map, MappingState& state)
     : request_(request) {
+  if (request_.max_memory) keepNoFreedMemory();
   writeInputs(mapping, constant_);
   if (request_.resume) {
     resume(map, state);
@@ -105,10 +118,12 @@ void Checkpoints::commit(CSemanticContinuousMap& map, const MappingState& state)
   last_commit_ = Clock::now();
 }
 
-/// As long as all voxels are in memory, those of the last commit may be there a second time.
 bool Checkpoints::needsRoom(const CSemanticContinuousMap& map) const {
   if (!request_.max_memory) return false;
-  return map.map().memoryBytes() > *request_.max_memory / (in_parts_ ? 1 : 2);
+  const std::size_t most = *request_.max_memory;
+  const std::size_t room = most - std::min(most / 2, kForOneScan);
+  // As long as all voxels are in memory, those of the last commit may be there a second time.
+  return map.map().memoryBytes() > room / (in_parts_ ? 1 : 2);
 }
 
 std::optional<std::string> Checkpoints::memoryShortage() {

@@ -216,7 +216,7 @@ void MappingRun::mapLog(const RawlogSurvey& survey, PoseSource& poses, std::size
     const std::size_t skip = request_.keep_key_frames ? 0 : entries_before;
     detail::PosedLog log(survey, poses, {request_.deskew, cameras, skip});
     ReadAhead<detail::PosedEntry> entries(kEntriesAhead, [&log] { return log.next(); });
-    for (std::size_t done = 0; const auto entry = entries.next(); ++entries_done_) {
+    for (std::size_t done = 0; const auto entry = entries.next();) {
       if (++done <= entries_before) {
         keepEntry(*entry);
       } else {
@@ -224,6 +224,7 @@ void MappingRun::mapLog(const RawlogSurvey& survey, PoseSource& poses, std::size
         state_.entries = done;
         if (checkpoints_) checkpoints_->afterEntry(*result_.map, state_);
       }
+      ++entries_done_;
       if (on_progress_) on_progress_(progress(survey.file));
     }
   } else {
@@ -325,9 +326,11 @@ MappingProgress MappingRun::progress(const std::string& log) const {
   std::size_t rejected =
       state_.points_rejected + statistics.unused.rejectedTotal() + statistics.labels.dropped();
   if (const auto cameras = map.cameraStatistics()) rejected += cameras->pointsDropped();
-  return {
-      log,      entries_done_, entries_, map.scans().size(), rejected, state_.observations_refused,
-      map.map()};
+  const bool in_parts = checkpoints_ && !checkpoints_->voxelsInMemory();
+  return {log,       entries_done_,
+          entries_,  map.scans().size(),
+          rejected,  state_.observations_refused,
+          map.map(), in_parts ? checkpoints_->chunksCommitted() : 0};
 }
 
 void MappingRun::keepSeen(const LabelledScan& scan) {
