@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -40,13 +41,26 @@ std::vector<std::string> iniFiles(const std::vector<std::string>& command,
   return files;
 }
 
+/// Throws what is wrong with the first ini file if none of them is as the program needs it.
 void check(const std::vector<std::string>& command, const MrptApplication* application,
            const std::vector<std::string>& inis) {
   if (application != nullptr && application->section.empty()) return;  // it reads no ini
-  if (inis.empty()) say(command.front() + ": no .ini among its arguments: nothing to check");
-  for (const std::string& ini : inis)
-    for (const std::string& warning : checkApplicationIni(ini, application))
-      say("warning: " + warning);
+  if (inis.empty()) {
+    say(command.front() + ": no .ini among its arguments: nothing to check");
+    return;
+  }
+  std::exception_ptr wrong;
+  bool found = false;
+  for (const std::string& ini : inis) {
+    try {
+      for (const std::string& warning : checkApplicationIni(ini, application))
+        say("warning: " + warning);
+      found = true;
+    } catch (const ConfigError&) {
+      if (!wrong) wrong = std::current_exception();
+    }
+  }
+  if (!found) std::rethrow_exception(wrong);
 }
 
 /// The plug-in before what is to be preloaded anyway.

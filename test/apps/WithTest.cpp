@@ -109,6 +109,15 @@ TEST_F(With, anIniInWhichMrptFindsNoMapIsNotRun) {
             "[MappingApplication]\n");
 }
 
+TEST_F(With, ofSeveralInisOneMustDefineTheMap) {
+  writeBytes(folder_ / "other.ini", "[Camera]\nrate = 5\n");
+  writeBytes(folder_ / "maps.ini", "[Mine]\nsemanticContinuousMap_count = 1\n");
+  EXPECT_EQ(with({"sh", "-c", "exit 3", "other.ini", "maps.ini"}).exit_code, 3);
+  const ProgramResult without = with({"sh", "-c", "exit 3", "other.ini"});
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_THAT(without.errors, HasSubstr("other.ini: defines no semantic map"));
+}
+
 TEST_F(With, mapPartitionReadsItsIniFromTheWorkingFolder) {
   const ProgramResult run = with({"map-partition", "x.simplemap"});
   EXPECT_EQ(run.exit_code, 2);
