@@ -263,6 +263,10 @@ TEST_F(MapDefinition, exactlyOneMapIsNeeded) {
   EXPECT_THROW(CSemanticContinuousMap::definitionFromIni(
                    file("[MappingApplication]\nsemanticContinuousMap_count = 2\n")),
                ConfigError);
+  // What MRPT itself throws for an ini; once it went through to the end of the program.
+  EXPECT_THROW(
+      CSemanticContinuousMap::definitionFromIni(file("[MappingApplication]\na = $eval{\n")),
+      ConfigError);
   EXPECT_THROW(CSemanticContinuousMap::definitionFromIni((folder_ / "none.ini").string()),
                ConfigError);
 }

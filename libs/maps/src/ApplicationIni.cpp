@@ -60,9 +60,7 @@ struct Definition {
 class MapsOfIni {
  public:
   explicit MapsOfIni(const std::string& file) : file_(file) {
-    // CConfigFile takes a missing file for an empty one.
-    if (!std::ifstream(file)) throw ConfigError(file + ": no such file, or it cannot be read");
-    ini_.setFileName(file);
+    openIni(file, ini_);
     ini_.getAllSections(sections_);
     for (const std::string& section : sections_) readSection(section);
   }
@@ -207,7 +205,8 @@ std::vector<std::string> checkApplicationIni(const std::string& file,
 
 std::vector<std::string> outputFoldersOf(const std::string& ini_file) {
   constexpr char kKey[] = "logOutput_dir";
-  const CConfigFile ini(ini_file);
+  CConfigFile ini;
+  openIni(ini_file, ini);
   std::vector<std::string> sections;
   ini.getAllSections(sections);
   std::vector<std::string> folders;

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "MrptMessage.h"
 #include "ObservationName.h"
 
 namespace csom {
@@ -20,16 +21,6 @@ Options withClassesOf(Options options, const LabelSet& labels) {
   options.number_of_classes = labels.numberOfClasses();
   options.unlabelled_class_id = labels.unlabelledClass();
   return options;
-}
-
-/// MRPT's exceptions span many lines; the reason is in the one that begins with "Message:".
-std::string oneLine(const std::string& what) {
-  constexpr char kMark[] = "Message:";
-  const std::size_t mark = what.find(kMark);
-  std::size_t begin = mark == std::string::npos ? 0 : mark + sizeof kMark - 1;
-  begin = what.find_first_not_of(" \t\r\n", begin);
-  if (begin == std::string::npos) return "unknown reason";
-  return what.substr(begin, what.find_first_of("\r\n", begin) - begin);
 }
 
 std::string listOf(const std::map<std::string, std::size_t>& counts) {

@@ -2,10 +2,12 @@
 // One section of an ini file, read strictly.
 #include "IniSection.h"
 
-#include <mrpt/config/CConfigFile.h>
-
 #include <algorithm>
 #include <cctype>
+#include <exception>
+#include <fstream>
+
+#include "MrptMessage.h"
 
 namespace csom {
 namespace {
@@ -33,6 +35,16 @@ std::string lowerCase(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
+}
+
+void openIni(const std::string& file, mrpt::config::CConfigFile& ini) {
+  // CConfigFile takes a missing file for an empty one.
+  if (!std::ifstream(file)) throw ConfigError(file + ": no such file, or it cannot be read");
+  try {
+    ini.setFileName(file);
+  } catch (const std::exception& error) {
+    throw ConfigError(file + ": MRPT cannot read this ini: " + oneLine(error.what()));
+  }
 }
 
 std::string fileOf(const mrpt::config::CConfigFileBase& source) {

@@ -5,6 +5,7 @@
 #include <csom/core/Error.h>
 #include <csom/core/Options.h>
 #include <csom/maps/LabelOptions.h>
+#include <mrpt/config/CConfigFile.h>
 #include <mrpt/config/CConfigFileBase.h>
 
 #include <set>
@@ -12,6 +13,9 @@
 #include <vector>
 
 namespace csom {
+
+/// Throws ConfigError if the file is not there, or if MRPT cannot make sense of it ($eval{…}).
+void openIni(const std::string& file, mrpt::config::CConfigFile& ini);
 
 /// The file behind a configuration; empty if it was read from memory.
 std::string fileOf(const mrpt::config::CConfigFileBase& source);

@@ -257,9 +257,8 @@ CSemanticContinuousMap::CSemanticContinuousMap(const TMapDefinition& definition)
 
 CSemanticContinuousMap::TMapDefinition CSemanticContinuousMap::definitionFromIni(
     const std::string& file, const std::string& application_section) {
-  // CConfigFile takes a missing file for an empty one.
-  if (!std::ifstream(file)) throw ConfigError(file + ": no such file, or it cannot be read");
-  const mrpt::config::CConfigFile ini(file);
+  mrpt::config::CConfigFile ini;
+  openIni(file, ini);
 
   IniSection section(ini, application_section);
   std::int64_t maps = 0;
