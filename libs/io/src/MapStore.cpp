@@ -11,6 +11,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "ChunkWriter.h"
 #include "FileLock.h"
 #include "MapTables.h"
 #include "PageSeals.h"
@@ -22,6 +23,7 @@ namespace {
 
 using detail::Database;
 using detail::Statement;
+using detail::Sums;
 
 void writeState(const Database& database, const MapStore::State& state) {
   Statement(database, "DELETE FROM resume").run();
@@ -97,90 +99,6 @@ class Transaction {
   bool done_ = false;
 };
 
-/// What changes with every commit, in memory as it is in the file.
-struct Sums {
-  std::uint64_t chunks = 0;
-  std::uint64_t scans = 0;
-  std::size_t chunk_count = 0;
-  std::size_t scan_count = 0;
-};
-
-/// The rows of `chunks`, one at a time by their place.
-class ChunkWriter {
- public:
-  ChunkWriter(const Database& database, int number_of_classes, Sums& sums)
-      : database_(database),
-        number_of_classes_(number_of_classes),
-        sums_(sums),
-        select_(database, "SELECT rowid, hash, record FROM chunks WHERE z = ? AND y = ? AND x = ?"),
-        insert_(database, "INSERT INTO chunks (x, y, z, hash, record) VALUES (?, ?, ?, ?, ?)"),
-        update_(database, "UPDATE chunks SET hash = ?, record = ? WHERE rowid = ?") {}
-
-  void write(const ChunkIndex& index, const Chunk& chunk, MapStore::Voxels voxels) {
-    select_.reset();
-    select_.bind(1, std::int64_t{index.z}).bind(2, std::int64_t{index.y});
-    select_.bind(3, std::int64_t{index.x});
-    if (!select_.step()) {
-      insert(index, chunk);
-      return;
-    }
-    const std::int64_t row = select_.integer(0);
-    const auto old_hash = static_cast<std::uint64_t>(select_.integer(1));
-    ChunkRef sum;
-    if (voxels == MapStore::Voxels::Add) sum = added(index, chunk, old_hash);
-    select_.reset();
-    update(row, index, sum ? *sum : chunk, old_hash);
-  }
-
- private:
-  /// The chunk in the file plus `chunk`.
-  ChunkRef added(const ChunkIndex& index, const Chunk& chunk, std::uint64_t hash) {
-    try {
-      const std::string_view record =
-          codec_.decompress(select_.blob(2), detail::maxRecordSize(number_of_classes_));
-      if (detail::chunkHash(index, record.data(), record.size()) != hash)
-        throw std::runtime_error("its hash does not match");
-      const ChunkRef base = Chunk::fromRecord(record.data(), record.size(), number_of_classes_);
-      return Chunk::sum(base.get(), chunk.toIncrements());
-    } catch (const FileError&) {
-      throw;
-    } catch (const std::runtime_error& error) {
-      throw FileError(database_.shownName(), "table chunks, chunk (" + std::to_string(index.x) +
-                                                 ", " + std::to_string(index.y) + ", " +
-                                                 std::to_string(index.z) + "): " + error.what() +
-                                                 detail::kDamaged);
-    }
-  }
-
-  void insert(const ChunkIndex& index, const Chunk& chunk) {
-    const std::uint64_t hash = detail::chunkHash(index, chunk.record(), chunk.recordSize());
-    const std::string_view frame = codec_.compress(chunk.record(), chunk.recordSize());
-    insert_.bind(1, std::int64_t{index.x}).bind(2, std::int64_t{index.y});
-    insert_.bind(3, std::int64_t{index.z}).bind(4, static_cast<std::int64_t>(hash));
-    insert_.bindBlob(5, frame.data(), frame.size()).run();
-    sums_.chunks += hash;
-    ++sums_.chunk_count;
-  }
-
-  void update(std::int64_t row, const ChunkIndex& index, const Chunk& chunk,
-              std::uint64_t old_hash) {
-    const std::uint64_t hash = detail::chunkHash(index, chunk.record(), chunk.recordSize());
-    if (hash == old_hash) return;
-    const std::string_view frame = codec_.compress(chunk.record(), chunk.recordSize());
-    update_.bind(1, static_cast<std::int64_t>(hash));
-    update_.bindBlob(2, frame.data(), frame.size()).bind(3, row).run();
-    sums_.chunks += hash - old_hash;
-  }
-
-  const Database& database_;
-  int number_of_classes_;
-  Sums& sums_;
-  detail::ChunkCodec codec_;
-  Statement select_;
-  Statement insert_;
-  Statement update_;
-};
-
 }  // namespace
 
 class MapStore::Content {
@@ -208,7 +126,7 @@ class MapStore::Content {
               const State& state) {
     Sums sums = sums_;
     Transaction transaction(database_);
-    ChunkWriter writer(database_, options_.number_of_classes, sums);
+    detail::ChunkWriter writer(database_, options_.number_of_classes, sums);
     for (const auto& [index, chunk] : chunks) writer.write(index, *chunk, voxels);
     detail::ScanWriter scan_writer(database_);
     for (; sums.scan_count < scans.size(); ++sums.scan_count)

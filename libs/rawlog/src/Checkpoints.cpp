@@ -18,7 +18,7 @@ namespace {
 constexpr auto kBetweenLooks = std::chrono::milliseconds(100);
 
 /// The scan at hand may add so much to what is there before anybody looks, and a commit needs some.
-constexpr std::size_t kForOneScan = 32'000'000;
+constexpr std::size_t kForOneScan = 48'000'000;
 
 /// What a scan needs for a moment is many megabytes: given back at once, not kept for the next one.
 void keepNoFreedMemory() {
@@ -121,7 +121,7 @@ void Checkpoints::commit(CSemanticContinuousMap& map, const MappingState& state)
 bool Checkpoints::needsRoom(const CSemanticContinuousMap& map) const {
   if (!request_.max_memory) return false;
   const std::size_t most = *request_.max_memory;
-  const std::size_t room = most - std::min(most / 2, kForOneScan);
+  const std::size_t room = most - std::min(most / 3 * 2, kForOneScan);
   // As long as all voxels are in memory, those of the last commit may be there a second time.
   return map.map().memoryBytes() > room / (in_parts_ ? 1 : 2);
 }

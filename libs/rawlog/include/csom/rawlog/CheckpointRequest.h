@@ -21,9 +21,9 @@ struct CheckpointRequest {
   bool resume = false;
   /// Least time between two commits [s]; 0 = after every entry.
   double seconds = 10;
-  /// Most memory for voxels [bytes], half of it and at most 32 MB for the scan at hand: what is more
-  /// is committed and dropped, and added up in the file. From then on
-  /// the process gives freed memory back to the system at once.
+  /// Most memory for voxels [bytes], two thirds of it and at most 48 MB for the scan at hand: what
+  /// is more is committed and dropped, and added up in the file. The process then gives memory that
+  /// it frees back to the system at once.
   std::optional<std::size_t> max_memory;
   /// For the table `meta`, beside the inputs with their sizes and hashes.
   std::map<std::string, std::string> meta;
