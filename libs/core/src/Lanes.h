@@ -34,6 +34,13 @@ inline Lanes squareRoot(const Lanes& v) {
 #else
 #define CSOM_EVERY_PROCESSOR
 #endif
+// For classes with such functions: a program that has csom::core inside and loads a library that
+// has it inside as well must not mix the choices of the two.
+#if defined(__GNUC__)
+#define CSOM_OF_ONE_BINARY __attribute__((visibility("hidden")))
+#else
+#define CSOM_OF_ONE_BINARY
+#endif
 // What such a function calls must become part of it, to be compiled for the same processor.
 #define CSOM_INLINE inline __attribute__((always_inline))
 

@@ -10,9 +10,11 @@
 
 namespace csom::detail {
 
+namespace {
+
 CSOM_EVERY_PROCESSOR
-std::size_t SurfaceClasses::selectNear(const Hits& hits, std::size_t size, const BlockPlace& block,
-                                       float length, std::uint32_t* selected) {
+std::size_t selectNear(const HitColumns& hits, std::size_t size, const BlockPlace& block,
+                       float length, std::uint32_t* selected) {
   const std::array<PointRange, 1> all{{{0, static_cast<std::uint32_t>(size)}}};
   return selectPoints(
       hits, all, block,
@@ -24,9 +26,9 @@ std::size_t SurfaceClasses::selectNear(const Hits& hits, std::size_t size, const
 }
 
 CSOM_EVERY_PROCESSOR
-void SurfaceClasses::addSparse(const Hits& hits, const std::vector<std::uint32_t>& selected,
-                               const std::vector<float>& scores, const LaneGroup& group,
-                               const BlockPlace& block, float length, LaneSums& sums) {
+void addSparse(const HitColumns& hits, const std::vector<std::uint32_t>& selected,
+               const std::vector<float>& scores, const LaneGroup& group, const BlockPlace& block,
+               float length, LaneSums& sums) {
   addMassOfPoints(
       [](const Lanes& t) __attribute__((always_inline)) { return sparseKernel(t); },
       [ length, reach = hits.reach.data() ](std::uint32_t p)
@@ -35,15 +37,29 @@ void SurfaceClasses::addSparse(const Hits& hits, const std::vector<std::uint32_t
 }
 
 CSOM_EVERY_PROCESSOR
-void SurfaceClasses::addLinear(const Hits& hits, const std::vector<std::uint32_t>& selected,
-                               const std::vector<float>& scores, const LaneGroup& group,
-                               const BlockPlace& block, float length, LaneSums& sums) {
+void addLinear(const HitColumns& hits, const std::vector<std::uint32_t>& selected,
+               const std::vector<float>& scores, const LaneGroup& group, const BlockPlace& block,
+               float length, LaneSums& sums) {
   addMassOfPoints(
       [](const Lanes& t) __attribute__((always_inline)) { return linearKernel(t); },
       [ length, reach = hits.reach.data() ](std::uint32_t p)
           __attribute__((always_inline)) { return 1.0F / std::max(length, reach[p]) / kUnits; },
       hits, selected, scores, group, block, sums);
 }
+
+CSOM_EVERY_PROCESSOR
+void divideSums(const LaneSums& sums, const std::array<float, kLanes>& occupied, double scale,
+                CountLanes* counts) {
+  MassLanes total{};
+  for (const ClassId k : sums.classes())
+    if (k != kFreeClass) total += sums.mass(k);
+  const MassLanes mass = __builtin_convertvector(load(occupied.data()), MassLanes) * scale;
+  const MassLanes share = total > 0.0 ? mass / total : MassLanes{};
+  for (const ClassId k : sums.classes())
+    if (k != kFreeClass) toCounts(sums.mass(k) * share, *counts++);
+}
+
+}  // namespace
 
 void SurfaceClasses::clear() {
   size_ = 0;
@@ -85,18 +101,6 @@ std::optional<ClassId> SurfaceClasses::onlyClass() const {
   const bool same = std::all_of(selected_.begin(), selected_.end(),
                                 [&](std::uint32_t p) { return hits_.label[p] == first; });
   return same ? std::optional<ClassId>(first) : std::nullopt;
-}
-
-CSOM_EVERY_PROCESSOR
-void SurfaceClasses::divideSums(const LaneSums& sums, const std::array<float, kLanes>& occupied,
-                                double scale, CountLanes* counts) {
-  MassLanes total{};
-  for (const ClassId k : sums.classes())
-    if (k != kFreeClass) total += sums.mass(k);
-  const MassLanes mass = __builtin_convertvector(load(occupied.data()), MassLanes) * scale;
-  const MassLanes share = total > 0.0 ? mass / total : MassLanes{};
-  for (const ClassId k : sums.classes())
-    if (k != kFreeClass) toCounts(sums.mass(k) * share, *counts++);
 }
 
 void SurfaceClasses::divide(const LaneGroup& group, const std::array<float, kLanes>& occupied,

@@ -19,6 +19,13 @@
 
 namespace csom::detail {
 
+/// Hits as PointColumns has them, and how far each one reaches [voxels].
+struct HitColumns {
+  std::vector<FixedPoint> x, y, z;
+  std::vector<ClassId> label;
+  std::vector<float> reach;
+};
+
 /// m^k of (S5): kernel mass by class, each hit with the length max(L_J, its own reach), so that
 /// whatever votes for a voxel also tells a class.
 class SurfaceClasses {
@@ -43,28 +50,10 @@ class SurfaceClasses {
               std::vector<ClassId>& classes, std::vector<CountLanes>& counts);
 
  private:
-  /// As PointColumns, and how far each hit reaches [voxels].
-  struct Hits {
-    std::vector<FixedPoint> x, y, z;
-    std::vector<ClassId> label;
-    std::vector<float> reach;
-  };
-
-  static void divideSums(const LaneSums& sums, const std::array<float, kLanes>& occupied,
-                         double scale, CountLanes* counts);
-  static std::size_t selectNear(const Hits& hits, std::size_t size, const BlockPlace& block,
-                                float length, std::uint32_t* selected);
-  static void addSparse(const Hits& hits, const std::vector<std::uint32_t>& selected,
-                        const std::vector<float>& scores, const LaneGroup& group,
-                        const BlockPlace& block, float length, LaneSums& sums);
-  static void addLinear(const Hits& hits, const std::vector<std::uint32_t>& selected,
-                        const std::vector<float>& scores, const LaneGroup& group,
-                        const BlockPlace& block, float length, LaneSums& sums);
-
   Kernel kernel_;
   LaneSums sums_;
   // In the order of the scan; coordinates and reaches are padded by whole vectors.
-  Hits hits_;
+  HitColumns hits_;
   std::size_t size_ = 0;
   std::vector<float> scores_;
   // Of them, those near the block.

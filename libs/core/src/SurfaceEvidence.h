@@ -19,7 +19,7 @@ namespace csom::detail {
 
 /// Sums over the training points, for each voxel of a chunk: a lane a voxel along x, single
 /// precision, in the order of the points. SurfaceInference.h has the equations.
-class SurfaceEvidence {
+class CSOM_OF_ONE_BINARY SurfaceEvidence {
  public:
   /// Beyond its thickness a plane speaks against voxels, this far along its normal [voxels]. What
   /// is farther off it says nothing about.
