@@ -66,7 +66,7 @@ TEST(LabelSet, YamlRoundTrip) {
   const LabelSet odd = LabelSet::fromYaml(
       labelSet("{id: 1, name: \"a: 'b', #c \\\"d\\\"\", color: [1, 2, 3]}"), "odd");
   EXPECT_EQ(LabelSet::fromYaml(odd.toYaml(), "again"), odd);
-  for (const char* word : {"null", "true", "12", "~", "ä ö"}) {
+  for (const char* word : {"null", "true", "12", "~", "ä ö", "道路", " "}) {
     const LabelSet set = LabelSet::fromYaml(
         labelSet("{id: 1, name: \"" + std::string(word) + "\", color: [1, 2, 3]}"), "word");
     EXPECT_EQ(LabelSet::fromYaml(set.toYaml(), "again").at(1).name, word);
@@ -199,6 +199,9 @@ INSTANTIATE_TEST_SUITE_P(
                     "non-empty"},
         BadLabelSet{"newline in name", labelSet("{id: 1, name: \"a\\nb\", color: [1, 2, 3]}"), "4",
                     "control character"},
+        // Found by fuzzing: it was read, but was another name when it came out of a map file.
+        BadLabelSet{"name of stray bytes", labelSet("{id: 1, name: ca\xff, color: [1, 2, 3]}"), "4",
+                    "not UTF-8"},
         BadLabelSet{"two colors", labelSet("{id: 1, name: car, color: [1, 2]}"), "4",
                     "three integers"},
         BadLabelSet{"color word", labelSet("{id: 1, name: car, color: red}"), "4",

@@ -64,7 +64,17 @@ class LabelSetReader {
     if (!node.IsScalar() || node.Scalar().empty()) fail(node, "a name must be a non-empty word");
     for (const char c : node.Scalar())
       if (static_cast<unsigned char>(c) < 0x20) fail(node, "a name holds a control character");
+    if (!isWrittenAsItIs(node.Scalar())) fail(node, "a name holds bytes that are not UTF-8");
     return node.Scalar();
+  }
+
+  /// A map file and a stream hold label sets as toYaml() writes them: what comes out must be what
+  /// went in. YAML's writer replaces what is not UTF-8.
+  static bool isWrittenAsItIs(const std::string& name) {
+    YAML::Emitter out;
+    out << YAML::DoubleQuoted << name;
+    const YAML::Node again = YAML::Load(out.c_str());
+    return again.IsScalar() && again.Scalar() == name;
   }
 
   /// An integer in [0, max].
