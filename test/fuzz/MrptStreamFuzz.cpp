@@ -86,6 +86,16 @@ void read(const std::uint8_t* block, std::uint64_t size) {
 
 }  // namespace
 
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv);
+
+/// If the sample itself were refused, nothing would be tried out.
+int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
+  // Compiled by clang, the library does not do that by itself when it is loaded.
+  mrpt::rtti::registerClass(CLASS_ID(csom::CSemanticContinuousMap));
+  read(sample().block.data(), sample().block.size());
+  return 0;
+}
+
 /// Starts from the sample: nothing else comes as far as the voxels.
 std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                     unsigned /*seed*/) {
