@@ -70,7 +70,7 @@ TEST(Kernel, SparseKernelIsTheClosedForm) {
     const double x = static_cast<double>(t);
     const double exact =
         (2 + std::cos(2 * M_PI * x)) / 3 * (1 - x) + std::sin(2 * M_PI * x) / (2 * M_PI);
-    ASSERT_NEAR(static_cast<double>(sparseKernel(t)), exact, 7e-7) << t;
+    ASSERT_NEAR(static_cast<double>(sparseKernel(t)), exact, 3e-7) << t;
     ASSERT_GE(sparseKernel(t), 0.0F);
   }
   EXPECT_FLOAT_EQ(linearKernel(0.25F), 0.75F);
