@@ -8,6 +8,8 @@
 #include <limits>
 #include <random>
 
+#include "core/RandomScans.h"
+
 namespace csom::test {
 namespace {
 
@@ -27,10 +29,10 @@ std::size_t peakBytes() {
 }
 
 /// One process for each of them: a peak is never forgotten.
-class AbsurdScans : public testing::TestWithParam<const char*> {
+class AbsurdScans : public testing::TestWithParam<Method> {
  protected:
   AbsurdScans() {
-    parse("method", GetParam(), options.method);
+    options.method = GetParam();
     options.resolution = 0.2;
     options.ds_resolution = 0.1;
     options.free_space = FreeSpace::Raycast;
@@ -106,12 +108,9 @@ TEST_P(AbsurdScans, ASensorFarOutside) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, AbsurdScans,
-                         testing::Values("surface-csom", "see-csom", "s-bki", "s-csm"),
-                         [](const auto& test) {
-                           std::string name = test.param;
-                           name.erase(name.find('-'), 1);
-                           return name;
-                         });
+                         testing::Values(Method::SurfaceCsom, Method::SeeCsom, Method::SBki,
+                                         Method::SCsm),
+                         methodName);
 
 }  // namespace
 }  // namespace csom::test

@@ -11,6 +11,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "core/RandomScans.h"
+
 namespace csom::test {
 namespace {
 
@@ -49,13 +51,13 @@ double millisecondsOf(const std::vector<double>& times, std::size_t begin, std::
   return sum / static_cast<double>(count);
 }
 
-class Soak : public testing::TestWithParam<const char*> {};
+class Soak : public testing::TestWithParam<Method> {};
 
 TEST_P(Soak, NothingGrowsOnceTheMapIsComplete) {
   Options options;
   options.number_of_classes = 4;
   options.resolution = 0.4;
-  parse("method", GetParam(), options.method);
+  options.method = GetParam();
   options.free_space = FreeSpace::Raycast;
   const int laps = lapsWanted();
   ASSERT_GE(laps, 20);
@@ -111,12 +113,8 @@ TEST_P(Soak, NothingGrowsOnceTheMapIsComplete) {
               millisecondsOf(times, times.size() - tenth, tenth));
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Soak, testing::Values("s-csm", "surface-csom"),
-                         [](const auto& test) {
-                           std::string name = test.param;
-                           name.erase(name.find('-'), 1);
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Methods, Soak, testing::Values(Method::SCsm, Method::SurfaceCsom),
+                         methodName);
 
 }  // namespace
 }  // namespace csom::test

@@ -2,11 +2,14 @@
 // A disk that fails when it is told to: a SQLite VFS over the real one.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <sqlite3.h>
 
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 
 namespace csom::test {
 
@@ -133,5 +136,15 @@ class FaultyDisk {
   int error_ = SQLITE_IOERR;
   long operations_ = 0;
 };
+
+/// What a disk does to who writes to it.
+constexpr std::array<int, 3> kDiskErrors{SQLITE_IOERR_WRITE, SQLITE_IOERR_FSYNC, SQLITE_FULL};
+
+/// Name of a test that runs once for each of them.
+inline std::string diskErrorName(const testing::TestParamInfo<int>& error) {
+  return error.param == SQLITE_FULL          ? "Full"
+         : error.param == SQLITE_IOERR_FSYNC ? "Flush"
+                                             : "Write";
+}
 
 }  // namespace csom::test

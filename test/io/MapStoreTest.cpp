@@ -237,13 +237,7 @@ TEST_P(FailingDisk, LosesNothingThatWasCommitted) {
   EXPECT_GT(failures, 20);
 }
 
-INSTANTIATE_TEST_SUITE_P(Errors, FailingDisk,
-                         testing::Values(SQLITE_IOERR_WRITE, SQLITE_IOERR_FSYNC, SQLITE_FULL),
-                         [](const auto& test) {
-                           return test.param == SQLITE_FULL          ? "Full"
-                                  : test.param == SQLITE_IOERR_FSYNC ? "Flush"
-                                                                     : "Write";
-                         });
+INSTANTIATE_TEST_SUITE_P(Errors, FailingDisk, testing::ValuesIn(kDiskErrors), diskErrorName);
 
 }  // namespace
 }  // namespace csom::test

@@ -235,13 +235,7 @@ TEST_P(RunOnAFailingDisk, GoesOnToTheSameMap) {
   EXPECT_GT(resumed, 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Errors, RunOnAFailingDisk,
-                         testing::Values(SQLITE_IOERR_WRITE, SQLITE_IOERR_FSYNC, SQLITE_FULL),
-                         [](const auto& test) {
-                           return test.param == SQLITE_FULL          ? "Full"
-                                  : test.param == SQLITE_IOERR_FSYNC ? "Flush"
-                                                                     : "Write";
-                         });
+INSTANTIATE_TEST_SUITE_P(Errors, RunOnAFailingDisk, testing::ValuesIn(kDiskErrors), diskErrorName);
 
 }  // namespace
 }  // namespace csom::test

@@ -2,6 +2,7 @@
 // Creation, copies and insertion.
 #include <csom/core/Error.h>
 #include <csom/maps/CSemanticContinuousMap.h>
+#include <csom/maps/MrptMessage.h>
 #include <csom/maps/PoseRounding.h>
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include <optional>
 #include <utility>
 
-#include "MrptMessage.h"
 #include "ObservationName.h"
 
 namespace csom {
@@ -235,7 +235,7 @@ bool CSemanticContinuousMap::internal_insertObservation(
     if (adapter_) insertScans(adapter_->takeFinished());
     // An application must not stop because of one damaged observation.
     last_insertion_.outcome = LastInsertion::Outcome::Damaged;
-    last_insertion_.reason = oneLine(error.what());
+    last_insertion_.reason = detail::messageOf(error);
     noteDamaged(observation, last_insertion_.reason);
     return false;
   }

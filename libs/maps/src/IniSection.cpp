@@ -2,12 +2,12 @@
 // One section of an ini file, read strictly.
 #include "IniSection.h"
 
+#include <csom/maps/MrptMessage.h>
+
 #include <algorithm>
 #include <cctype>
 #include <exception>
 #include <fstream>
-
-#include "MrptMessage.h"
 
 namespace csom {
 namespace {
@@ -43,7 +43,7 @@ void openIni(const std::string& file, mrpt::config::CConfigFile& ini) {
   try {
     ini.setFileName(file);
   } catch (const std::exception& error) {
-    throw ConfigError(file + ": MRPT cannot read this ini: " + oneLine(error.what()));
+    throw ConfigError(file + ": MRPT cannot read this ini: " + detail::messageOf(error));
   }
 }
 

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an exception of MRPT says, in one line.
-#include "MrptMessage.h"
+#include <csom/maps/MrptMessage.h>
 
-namespace csom {
+namespace csom::detail {
 
-std::string oneLine(const std::string& what) {
-  constexpr char kMark[] = "Message:";
-  const std::size_t mark = what.find(kMark);
-  std::size_t begin = mark == std::string::npos ? 0 : mark + sizeof kMark - 1;
-  begin = what.find_first_not_of(" \t\r\n", begin);
-  if (begin == std::string::npos) return "unknown reason";
-  return what.substr(begin, what.find_first_of("\r\n", begin) - begin);
+std::string messageOf(const std::exception& error) {
+  std::string text = error.what();
+  for (const std::string mark : {"MRPT exception ====", "Message:"}) {
+    if (const std::size_t at = text.rfind(mark); at != std::string::npos)
+      text.erase(0, at + mark.size());
+  }
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string::npos) return "no reason given";
+  return text.substr(begin, text.find_first_of("\r\n", begin) - begin);
 }
 
-}  // namespace csom
+}  // namespace csom::detail

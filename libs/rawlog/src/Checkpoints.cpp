@@ -45,10 +45,10 @@ Checkpoints::Checkpoints(const CheckpointRequest& request, const MappingRequest&
   }
   write(mapping, constant_);
   for (const auto& [key, value] : request_.notes) constant_["note." + key] = value;
-  begin(mapping, *map);
+  begin(*map);
 }
 
-void Checkpoints::begin(const MappingRequest&, const CSemanticContinuousMap& map) {
+void Checkpoints::begin(const CSemanticContinuousMap& map) {
   MapDocument start;
   start.map = SemanticMap(map.map().options());
   start.labels = map.labels();

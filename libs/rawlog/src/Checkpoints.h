@@ -36,7 +36,7 @@ class Checkpoints {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void begin(const MappingRequest& mapping, const CSemanticContinuousMap& map);
+  void begin(const CSemanticContinuousMap& map);
   void resume(CSemanticContinuousMap::Ptr& map, MappingState& state);
   MapStore::Chunks changedChunks(const ChunkStore& chunks) const;
   bool needsRoom(const CSemanticContinuousMap& map) const;

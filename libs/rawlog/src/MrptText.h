@@ -10,7 +10,7 @@
 
 namespace csom::detail {
 
-/// The innermost message of an MRPT exception, whose what() is many lines with a call stack.
+/// messageOf(error), short and fit for a terminal: it may quote a damaged file.
 std::string oneLine(const std::exception& error);
 
 /// A class name without its namespaces.
