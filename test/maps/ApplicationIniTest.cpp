@@ -88,6 +88,8 @@ TEST_F(ApplicationIni, wrongValues) {
               "[MappingApplication_semanticContinuousMap_00_creationOpts]: resolution = fine");
   expectError("observations2map", "[MappingApplication]\nsemanticContinuousMap_count = many\n",
               "semanticContinuousMap_count = many");
+  expectError("icp-slam", "[MappingApplication]\nsemanticPointsMap_count = 2000000000\n",
+              "semanticPointsMap_count = 2000000000 must be 99 at most");
 }
 
 TEST_F(ApplicationIni, whatNothingReads) {

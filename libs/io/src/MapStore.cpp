@@ -53,7 +53,7 @@ void requireUnfinished(const Database& database, const detail::Texts& meta) {
     throw FileError(database.shownName(), "is a finished map, there is nothing to go on with");
 }
 
-/// Removes a file when it goes, unless it was told to keep it.
+/// Removes a file when it goes, if it is still there.
 class Leftover {
  public:
   explicit Leftover(std::string path) : path_(std::move(path)) {}

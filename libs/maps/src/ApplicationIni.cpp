@@ -7,27 +7,18 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 #include "IniSection.h"
+#include "MapNames.h"
 
 namespace csom {
 namespace {
 
 using mrpt::config::CConfigFile;
 
-/// The names of our maps, as they are registered, and whether MRPT takes them for points maps.
-struct MapName {
-  const char* name;
-  bool is_points_map;
-};
-constexpr MapName kMapNames[] = {{"semanticContinuousMap", false},
-                                 {"CSemanticContinuousMap", false},
-                                 {"csom::CSemanticContinuousMap", false},
-                                 {"semanticPointsMap", true},
-                                 {"CSemanticPointsMap", true},
-                                 {"csom::CSemanticPointsMap", true}};
+/// More of one kind are a slip of the pen, and would take a while to be read.
+constexpr int kMostMaps = 99;
 
 /// MRPT's own maps that icp-slam and rbpf-slam's optimal proposal can align scans to.
 constexpr const char* kAlignable[] = {
@@ -89,7 +80,11 @@ class MapsOfIni {
           std::begin(kMapNames), std::end(kMapNames),
           [&](const MapName& candidate) { return lower == lowerCase(candidate.name) + "_count"; });
       if (name != std::end(kMapNames)) {
-        definitions_.push_back({section, name->name, name->is_points_map, number(section, key)});
+        const int count = number(section, key);
+        if (count > kMostMaps)
+          throw ConfigError(IniSection(ini_, section).place() + " " + key + " = " +
+                            toString(count) + " must be " + toString(kMostMaps) + " at most");
+        definitions_.push_back({section, name->name, name->is_points_map, count});
       } else if (lower.find("semantic") != std::string::npos &&
                  lower.find("count") != std::string::npos) {
         misspelt_.push_back(IniSection(ini_, section).place() + " " + key);

@@ -7,20 +7,16 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <type_traits>
 
 #include "IniSection.h"
+#include "MapNames.h"
 
 namespace csom {
 namespace {
 
 using mrpt::config::CConfigFileBase;
-
-// The names that the map is registered by; the same list stands in MAP_DEFINITION_REGISTER.
-constexpr const char* kMapNames[] = {"csom::CSemanticContinuousMap", "CSemanticContinuousMap",
-                                     "semanticContinuousMap"};
 
 /// Keys that MRPT itself reads from the section of creation options.
 constexpr const char* kGenericKeys[] = {"enableSaveAs3DObject", "enableObservationLikelihood",
@@ -264,7 +260,8 @@ CSemanticContinuousMap::TMapDefinition CSemanticContinuousMap::definitionFromIni
   std::int64_t maps = 0;
   std::string defined;
   std::vector<std::string> count_keys;
-  for (const char* name : kMapNames) {
+  for (const auto& [name, is_points_map] : kMapNames) {
+    if (is_points_map) continue;
     const std::string key = std::string(name) + "_count";
     count_keys.push_back(key);
     int count = 0;
