@@ -174,5 +174,32 @@ TEST_F(MapRepairTest, WhatIsNoMapCannotBeRepaired) {
   EXPECT_THAT(fileErrorOf([&] { recoverMap(folder_ / "none"); }), HasSubstr("no such file"));
 }
 
+// Once every pointer of a page was followed along chains that end nowhere: hours for a file of 8
+// MB.
+TEST_F(MapRepairTest, ChainsInCirclesEnd) {
+  constexpr std::size_t kPages = 2000;
+  constexpr std::size_t kCell = 3500;
+  constexpr std::size_t kOwnBytes = 500;  // of the row, in the page of the cell
+  constexpr std::size_t kRow = kOwnBytes + 244 * (kPage - 8 - 4);
+  std::string bytes;
+  for (std::size_t number = 1; number <= kPages; ++number) {
+    std::string page(kPage, '\0');
+    const auto put = [&](std::size_t at, std::size_t value, int size) {
+      for (int i = 0; i < size; ++i)
+        page[at + static_cast<std::size_t>(i)] = static_cast<char>(value >> (8 * (size - 1 - i)));
+    };
+    put(0, number, 4);  // as a continuation, it names itself
+    for (std::size_t at = 8; at < kCell - 500; at += 2) put(at, kCell, 2);
+    page[kCell] = static_cast<char>(0x80U | kRow >> 14U);
+    page[kCell + 1] = static_cast<char>(0x80U | (kRow >> 7U & 0x7fU));
+    page[kCell + 2] = static_cast<char>(kRow & 0x7fU);
+    page[kCell + 3] = 1;  // number of the row
+    put(kCell + 4 + kOwnBytes, number, 4);
+    bytes += page;
+  }
+  writeBytes(file_, bytes);
+  EXPECT_THAT(fileErrorOf([&] { recoverMap(file_); }), HasSubstr("holds no options of a map"));
+}
+
 }  // namespace
 }  // namespace csom::test

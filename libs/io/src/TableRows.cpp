@@ -30,8 +30,8 @@ class PageFile {
     if (!stream_) throw FileError(file, std::string("cannot be read: ") + std::strerror(errno));
     stream_.seekg(0, std::ios::end);
     pages_ = static_cast<std::uint64_t>(stream_.tellg()) / kPageSize;
+    chained_left_ = kMostChained * pages_;
   }
-  std::uint64_t pages() const { return pages_; }
   /// `number` from 1. False if there is no such page.
   bool read(std::uint64_t number, Page& page) {
     if (number < 1 || number > pages_) return false;
@@ -39,10 +39,22 @@ class PageFile {
     stream_.seekg(static_cast<std::streamoff>((number - 1) * kPageSize));
     return static_cast<bool>(stream_.read(reinterpret_cast<char*>(page.data()), kPageSize));
   }
+  /// The same for a page that another one names as its continuation. Each belongs to one row, so in
+  /// all no more than some times their number are read: chains that were made to meet or to go in
+  /// circles must not cost a day.
+  bool readChained(std::uint64_t number, Page& page) {
+    if (chained_left_ == 0) return false;
+    --chained_left_;
+    return read(number, page);
+  }
 
  private:
+  /// What is no row may look like the beginning of one, and then has a continuation as well.
+  static constexpr std::uint64_t kMostChained = 64;
+
   std::ifstream stream_;
   std::uint64_t pages_ = 0;
+  std::uint64_t chained_left_ = 0;
 };
 
 std::uint64_t bigEndian(const unsigned char* bytes, std::size_t size) {
@@ -89,7 +101,7 @@ std::optional<std::string> payloadOf(PageFile& file, const unsigned char* begin,
   std::string bytes(reinterpret_cast<const char*>(begin), local);
   std::uint64_t next = local < size ? bigEndian(begin + local, 4) : 0;
   for (Page page; bytes.size() < size;) {
-    if (!file.read(next, page)) return std::nullopt;
+    if (!file.readChained(next, page)) return std::nullopt;
     next = bigEndian(page.data(), 4);
     bytes.append(reinterpret_cast<const char*>(page.data()) + 4,
                  std::min(size - bytes.size(), kUsable - 4));
