@@ -25,6 +25,17 @@ function(csom_add_library name)
   set_property(GLOBAL APPEND PROPERTY CSOM_LIBRARIES csom-${name})
 endfunction()
 
+# csom_add_module(vdb OF exports SOURCES … LINK …): csom-vdb.so, which csom::exports loads when it is
+# first needed (csom/io/Module.h).
+function(csom_add_module name)
+  cmake_parse_arguments(arg "" "OF" "SOURCES;LINK" ${ARGN})
+  add_library(csom-${name} MODULE ${arg_SOURCES})
+  set_target_properties(csom-${name} PROPERTIES PREFIX "")
+  target_link_libraries(csom-${name} PRIVATE ${arg_LINK} csom_warnings)
+  add_dependencies(csom-${arg_OF} csom-${name})
+  install(TARGETS csom-${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endfunction()
+
 # csom_add_test(core/GridTest LINK csom::core …): test/core/GridTest.cpp becomes a program of its own,
 # which the target tests-core builds.
 #   SOURCES …   further source files

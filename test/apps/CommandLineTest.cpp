@@ -13,6 +13,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string kRoomWorld = CSOM_SOURCE_DIR "/config/worlds/room.yaml";
 const std::string kRoomLog = CSOM_SOURCE_DIR "/rawlogs/room.rawlog";
@@ -34,6 +35,16 @@ TEST_F(CommandLine, NamesWordsThatAreNoCommand) {
   expectUsageError({"import", "kitti"},
                    "no command 'kitti'; there are semantickitti, kitti-raw, pcd");
   EXPECT_EQ(runCsom(folder_.path(), {"import", "pcd", "--help"}).exit_code, 0);
+}
+
+TEST_F(CommandLine, LoadsNoLibraryThatFewCommandsNeed) {
+  // So the dynamic linker lists what it loads, and does not run the program.
+  const auto libraries =
+      runProgram(folder_.path(), CSOM_PROGRAM, {}, {"LD_TRACE_LOADED_OBJECTS=1"}).output;
+  EXPECT_THAT(libraries, HasSubstr("libmrpt-maps.so"));
+  for (const std::string seldom : {"libopenvdb.so", "libmrpt-slam.so", "libmrpt-vision.so",
+                                   "libopencv_videoio.so", "libopencv_highgui.so"})
+    EXPECT_THAT(libraries, Not(HasSubstr(seldom)));
 }
 
 TEST_F(CommandLine, ListsTheWordsOfAChoice) {

@@ -90,8 +90,6 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv);
 
 /// If the sample itself were refused, nothing would be tried out.
 int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
-  // Compiled by clang, the library does not do that by itself when it is loaded.
-  mrpt::rtti::registerClass(CLASS_ID(csom::CSemanticContinuousMap));
   read(sample().block.data(), sample().block.size());
   return 0;
 }

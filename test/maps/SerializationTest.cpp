@@ -13,6 +13,7 @@
 #include <limits>
 #include <random>
 
+#include "ByteStream.h"
 #include "SampleObservations.h"
 
 namespace csom {
@@ -145,6 +146,70 @@ TEST(Serialization, carriesEverything) {
   EXPECT_FALSE(copy.genericMapParams.enableSaveAs3DObject);
   EXPECT_FALSE(copy.genericMapParams.enableObservationInsertion);
   EXPECT_TRUE(copy.genericMapParams.enableObservationLikelihood);
+}
+
+/// What `version` of the format wrote for fullMap(), whose bytes of today are `today`.
+Bytes asWrittenBy(std::uint8_t version, const Bytes& today) {
+  Parts parts(today);
+  ByteReader in(parts.block.data(), parts.block.size());
+  ByteWriter out;
+  const auto copyBytes = [&](std::size_t size, ByteWriter& to) { to.raw(in.raw(size), size); };
+  const auto copyTexts = [&](std::uint64_t count, ByteWriter& to) {
+    for (; count > 0; --count) to.text(in.text());
+  };
+  const auto copyOptions = [&](ByteWriter& to) {
+    const auto count = in.number<std::uint64_t>();
+    to.number(count);
+    copyTexts(2 * count, to);
+  };
+  ByteWriter later;  // what that version did not have
+
+  copyBytes(3, out);
+  copyOptions(version < 3 ? later : out);
+  if (version < 3) {
+    const CSemanticContinuousMap map = fullMap();
+    out.number(static_cast<std::uint8_t>(map.renderingOptions.occupied_voxels));
+    out.number(static_cast<std::uint8_t>(map.renderingOptions.free_voxels));
+  }
+  copyTexts(3, out);
+  copyOptions(version < 2 ? later : out);
+  if (version < 2) {
+    const CSemanticContinuousMap map = fullMap();
+    out.number(static_cast<std::int32_t>(map.likelihoodOptions.decimation));
+    out.number(map.likelihoodOptions.max_distance);
+    out.number(map.likelihoodOptions.sigma);
+  }
+  copyOptions(version < 1 ? later : out);
+  copyBytes(sizeof(std::uint64_t), version < 1 ? later : out);  // number of label sources: none
+  copyBytes(in.left() - 1, out);
+  copyBytes(1, version < 1 ? later : out);  // is there an adapter? no
+  parts.front.back() = version;
+  parts.block = out.bytes();
+  return parts.joined();
+}
+
+TEST(Serialization, readsWhatEarlierVersionsWrote) {
+  CSemanticContinuousMap map = fullMap();
+  map.labelOptions.max_time_offset = 0.0625;
+  const Bytes today = serialised(map);
+  ASSERT_EQ(asWrittenBy(3, today), today) << "the test does not follow the format any more";
+  for (std::uint8_t version = 0; version < 3; ++version) {
+    SCOPED_TRACE(static_cast<int>(version));
+    CSemanticContinuousMap copy;
+    readInto(copy, asWrittenBy(version, today));
+    EXPECT_EQ(mapDigest(copy.map()), mapDigest(map.map()));
+    EXPECT_EQ(copy.scans().size(), map.scans().size());
+    EXPECT_FALSE(copy.renderingOptions.occupied_voxels);
+    EXPECT_TRUE(copy.renderingOptions.free_voxels);
+    EXPECT_EQ(copy.renderingOptions.color_by, VoxelColor::Class);
+    EXPECT_EQ(copy.likelihoodOptions.decimation, 3);
+    EXPECT_EQ(copy.likelihoodOptions.max_distance, 0.75);
+    EXPECT_EQ(copy.likelihoodOptions.sigma, 0.125);
+    EXPECT_EQ(copy.likelihoodOptions.method,
+              version < 2 ? LikelihoodOptions().method : LikelihoodMethod::Beam);
+    EXPECT_EQ(copy.labelOptions.max_time_offset,
+              version < 1 ? LabelOptions().max_time_offset : 0.0625);
+  }
 }
 
 TEST(Serialization, carriesScanRecordsAndStatistics) {

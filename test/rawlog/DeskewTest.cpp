@@ -135,21 +135,31 @@ TEST_F(DeskewTest, NothingIsMovedWithoutPosesForTheWholeTurn) {
   EXPECT_EQ(statistics.not_possible + statistics.not_needed + statistics.deskewed, 2U);
 }
 
-/// Times of packets lie where MRPT gives no access: after the blocks of 1206 bytes.
-void setPacketTime(CObservationVelodyneScan::TVelodyneRawPacket& packet, std::uint32_t time) {
-  constexpr std::size_t kPlace = 1200;
-  static_assert(sizeof packet == kPlace + 6);
-  std::memcpy(reinterpret_cast<unsigned char*>(&packet) + kPlace, &time, sizeof time);
+using Packet = CObservationVelodyneScan::TVelodyneRawPacket;
+
+/// Times of packets lie where MRPT gives no access, or none that C++ defines: after the blocks of
+/// 1206 bytes.
+constexpr std::size_t kPlaceOfTime = 1200;
+static_assert(sizeof(Packet) == kPlaceOfTime + 6);
+
+std::uint32_t packetTime(const Packet& packet) {
+  std::uint32_t time;
+  std::memcpy(&time, reinterpret_cast<const unsigned char*>(&packet) + kPlaceOfTime, sizeof time);
+  return time;
+}
+
+void setPacketTime(Packet& packet, std::uint32_t time) {
+  std::memcpy(reinterpret_cast<unsigned char*>(&packet) + kPlaceOfTime, &time, sizeof time);
 }
 
 TEST_F(DeskewTest, TheHourMayEndDuringATurn) {
   simulate(", sweep: moving");
   CObservationVelodyneScan late(*scans[5]);
   constexpr std::uint32_t kHour = 3'600'000'000;
-  const std::uint32_t first = late.scan_packets.front().gps_timestamp();
+  const std::uint32_t first = packetTime(late.scan_packets.front());
   for (auto& packet : late.scan_packets)
-    setPacketTime(packet, (packet.gps_timestamp() - first + kHour - 50'000) % kHour);
-  ASSERT_LT(late.scan_packets.back().gps_timestamp(), 60'000U);
+    setPacketTime(packet, (packetTime(packet) - first + kHour - 50'000) % kHour);
+  ASSERT_LT(packetTime(late.scan_packets.back()), 60'000U);
   EXPECT_EQ(sweepEnd(late), sweepEnd(*scans[5]));
   DeskewStatistics statistics;
   const auto moved = deskewed(late, truth(), statistics);

@@ -3,23 +3,26 @@
 #include <csom/core/Error.h>
 #include <csom/exports/ExportChecks.h>
 #include <csom/exports/VdbFile.h>
+#include <csom/io/Module.h>
 #include <csom/io/OutputFile.h>
-#include <openvdb/io/Stream.h>
-#include <openvdb/openvdb.h>
 
 #include <fstream>
+#include <stdexcept>
+
+#include "VdbModule.h"
 
 namespace csom {
 namespace {
 
-template <class Grid>
-typename Grid::Ptr makeGrid(const std::string& name, double resolution) {
-  auto grid = Grid::create();
-  grid->setName(name);
-  auto transform = openvdb::math::Transform::createLinearTransform(resolution);
-  transform->postTranslate(openvdb::Vec3d(resolution / 2));
-  grid->setTransform(transform);
-  return grid;
+std::unique_ptr<detail::VdbGrids> makeGrids(double resolution, const std::string& file) try {
+  std::unique_ptr<detail::VdbGrids> grids;
+  auto* make = reinterpret_cast<detail::MakeVdbGrids*>(
+      detail::functionOfModule(detail::kVdbModule, detail::kMakeVdbGrids));
+  make(resolution, grids);
+  return grids;
+} catch (const std::runtime_error& error) {
+  throw ConfigError(file + ": " + error.what() +
+                    ". It is built where libopenvdb-dev is installed; other formats do without");
 }
 
 }  // namespace
@@ -28,27 +31,19 @@ std::size_t writeVdb(const VoxelSelection& selection, const LabelSet& labels,
                      const std::string& file) {
   detail::checkExport(selection, labels);
   OutputFile out(file);
-  openvdb::initialize();
-  const auto classes = makeGrid<openvdb::Int32Grid>("class", selection.resolution());
-  const auto occupancy = makeGrid<openvdb::FloatGrid>("occupancy", selection.resolution());
-  const auto variance = makeGrid<openvdb::FloatGrid>("variance", selection.resolution());
-  auto class_values = classes->getAccessor();
-  auto occupancy_values = occupancy->getAccessor();
-  auto variance_values = variance->getAccessor();
+  const auto grids = makeGrids(selection.resolution(), file);
   std::size_t count = 0;
   selection.withFreeVoxels(true).forEachResampled(
       [&](const VoxelIndex& v, const ExportedVoxel& voxel) {
-        const openvdb::Coord at(v.x, v.y, v.z);
-        class_values.setValueOn(at, voxel.class_id);
-        occupancy_values.setValueOn(at, static_cast<float>(voxel.occupancy));
-        variance_values.setValueOn(at, static_cast<float>(voxel.variance));
+        grids->add(v.x, v.y, v.z, voxel.class_id, static_cast<float>(voxel.occupancy),
+                   static_cast<float>(voxel.variance));
         ++count;
       });
 
   std::ofstream stream(out.path(), std::ios::binary);
   try {
-    openvdb::io::Stream(stream).write(openvdb::GridCPtrVec{classes, occupancy, variance});
-  } catch (const openvdb::Exception& error) {
+    grids->write(stream);
+  } catch (const std::exception& error) {
     throw FileError(file, std::string("cannot be written: ") + error.what());
   }
   if (!stream.flush()) throw FileError(file, "cannot be written");

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csom/core/Error.h>
 #include <csom/io/LabelSet.h>
-#include <dlfcn.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+
+#include "CodeFolder.h"
 
 namespace csom {
 
@@ -15,20 +16,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr char kUnlabelled[] = "unlabelled";
-
-/// The folder of the library or program that holds this code; empty if unknown.
-fs::path folderOfThisCode() {
-  Dl_info info{};
-  std::error_code error;
-  if (::dladdr(reinterpret_cast<const void*>(&folderOfThisCode), &info) != 0 &&
-      info.dli_fname != nullptr) {
-    // For a program dli_fname is argv[0], which need not name a file: then /proc knows.
-    const fs::path file = fs::canonical(info.dli_fname, error);
-    if (!error) return file.parent_path();
-  }
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  return error ? fs::path() : program.parent_path();
-}
 
 /// share/mrpt_csom/labels of every prefix that `folder` may belong to: PREFIX/bin, PREFIX/lib and
 /// Debian's PREFIX/lib/TRIPLET.
@@ -55,7 +42,7 @@ std::vector<fs::path> candidates(const std::string& name_or_path, const std::str
       if (!folder.empty()) result.push_back(fs::path(folder) / file_name);
     }
   }
-  for (const fs::path& folder : shareFolders(folderOfThisCode()))
+  for (const fs::path& folder : shareFolders(detail::folderOfThisCode()))
     result.push_back(folder / file_name);
   return result;
 }

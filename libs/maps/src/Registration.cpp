@@ -2,7 +2,6 @@
 // Makes the maps known to MRPT when the library is loaded.
 #include <csom/maps/CSemanticContinuousMap.h>
 #include <csom/maps/CSemanticPointsMap.h>
-#include <mrpt/core/initializer.h>
 #include <mrpt/maps/TMetricMapTypesRegistry.h>
 
 // The fully qualified name is what CMultiMetricMap looks a class up by; the short ones are for ini
@@ -16,8 +15,14 @@ MAP_DEFINITION_REGISTER("csom::CSemanticPointsMap,CSemanticPointsMap,semanticPoi
 IMPLEMENTS_SERIALIZABLE(CSemanticContinuousMap, mrpt::maps::CMetricMap, csom)
 IMPLEMENTS_SERIALIZABLE(CSemanticPointsMap, mrpt::maps::CSimplePointsMap, csom)
 
-// De-serialising looks the class up by its name.
-MRPT_INITIALIZER(registerSemanticMaps) {
+namespace {
+
+// De-serialising looks the class up by its name. No MRPT_INITIALIZER: with clang that runs before
+// the class ids above are there.
+[[maybe_unused]] const bool registered = [] {
   mrpt::rtti::registerClass(CLASS_ID(csom::CSemanticContinuousMap));
   mrpt::rtti::registerClass(CLASS_ID(csom::CSemanticPointsMap));
-}
+  return true;
+}();
+
+}  // namespace

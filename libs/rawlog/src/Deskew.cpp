@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 
 #include "EigenPose.h"
@@ -22,17 +23,27 @@ struct Sweep {
   double end() const { return start + last_packet + half_packet; }
 };
 
+/// What packet.gps_timestamp() should return: that one binds a reference to a number that lies at
+/// no multiple of four bytes.
+std::uint32_t timeOf(const CObservationVelodyneScan::TVelodyneRawPacket& packet) {
+  static_assert(sizeof packet == sizeof packet.blocks + sizeof(std::uint32_t) + 2);
+  std::uint32_t time;
+  std::memcpy(&time, reinterpret_cast<const std::uint8_t*>(&packet) + sizeof packet.blocks,
+              sizeof time);
+  return time;
+}
+
 /// Nothing if there is no time stamp, or no packet.
 std::optional<Sweep> sweepOf(const CObservationVelodyneScan& scan) {
   const auto start = detail::secondsOf(scan.timestamp);
   if (!start || scan.scan_packets.empty()) return std::nullopt;
   Sweep sweep;
   sweep.start = *start;
-  const std::uint32_t first = scan.scan_packets.front().gps_timestamp();
+  const std::uint32_t first = timeOf(scan.scan_packets.front());
   for (const auto& packet : scan.scan_packets) {
     // Microseconds since the hour began, which may end during the turn.
     constexpr std::uint32_t kHour = 3'600'000'000;
-    const std::uint32_t time = packet.gps_timestamp();
+    const std::uint32_t time = timeOf(packet);
     const std::uint32_t elapsed = time >= first ? time - first : kHour - first + time;
     sweep.last_packet = std::max(sweep.last_packet, 1e-6 * elapsed);
   }

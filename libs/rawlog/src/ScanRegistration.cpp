@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where a robot drives, found by laying each of its 3-D scans over those before it.
+#include <csom/io/Module.h>
 #include <csom/rawlog/ScanRegistration.h>
-#include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/poses/Lie/SE.h>
-#include <mrpt/slam/CICP.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "EigenPose.h"
+#include "IcpModule.h"
 #include "ThinnedPoints.h"
 
 namespace csom {
@@ -55,18 +55,9 @@ mrpt::maps::CSimplePointsMap pointsMap(const Points& points) {
   return map;
 }
 
-mrpt::slam::CICP::TConfigParams icpOptions() {
-  mrpt::slam::CICP::TConfigParams options;
-  options.maxIterations = 100;
-  options.minAbsStep_trans = 1e-3;
-  options.minAbsStep_rot = 1e-4;
-  options.thresholdDist = kLargestCorrection;
-  options.thresholdAng = 0;
-  options.ALFA = 0.7;
-  options.smallestThresholdDist = kSmallestCorrespondence;
-  options.corresponding_points_decimation = 1;
-  options.skip_cov_calculation = true;
-  return options;
+detail::AlignPoints* loadIcp() {
+  return reinterpret_cast<detail::AlignPoints*>(
+      detail::functionOfModule(detail::kIcpModule, detail::kAlignPoints));
 }
 
 std::string percent(double share) {
@@ -124,14 +115,13 @@ ScanRegistration::Result ScanRegistration::registered(const Points& points,
   }
   const CPose3D& anchor = key_frames_.back().pose;
   const mrpt::maps::CSimplePointsMap scan = pointsMap(points);
-  mrpt::slam::CICP icp(icpOptions());
-  mrpt::slam::CICP::TReturnInfo info;
-  const auto found =
-      icp.Align3DPDF(&submap_, &scan, mrpt::poses::CPose3DPDFGaussian(predicted - anchor), info);
-  const CPose3D pose = anchor + found->getMeanVal();
+  static detail::AlignPoints* const align_points = loadIcp();
+  detail::Alignment alignment{predicted - anchor, kLargestCorrection, kSmallestCorrespondence, 0};
+  align_points(submap_, scan, alignment);
+  const CPose3D pose = anchor + alignment.pose;
   const double correction = (pose - predicted).norm();
-  if (!(info.goodness >= kLeastOverlap)) {
-    result.doubt = percent(info.goodness) + " of it lies on earlier scans";
+  if (!(alignment.overlap >= kLeastOverlap)) {
+    result.doubt = percent(alignment.overlap) + " of it lies on earlier scans";
   } else if (!(correction <= kLargestCorrection)) {
     result.doubt = "it fits " + std::to_string(correction) + " m from where it was expected";
   } else {

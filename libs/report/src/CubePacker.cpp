@@ -87,9 +87,9 @@ int cubeLevel(const SemanticMap& map, std::size_t most_cubes, std::size_t most_t
 }
 
 std::array<std::int32_t, 3> Cube::index() const {
-  return {tile[0] << kTileBits | (place & kTileMask),
-          tile[1] << kTileBits | (place >> kTileBits & kTileMask),
-          tile[2] << kTileBits | place >> 2 * kTileBits};
+  constexpr int kSide = 1 << kTileBits;
+  return {tile[0] * kSide + (place & kTileMask), tile[1] * kSide + (place >> kTileBits & kTileMask),
+          tile[2] * kSide + (place >> 2 * kTileBits)};
 }
 
 CubePacker::CubePacker(const SemanticMap& map, int level) {

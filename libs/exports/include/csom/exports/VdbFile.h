@@ -15,7 +15,7 @@ namespace csom {
 /// coordinates are metres in the export's frame, voxels' centres at (i+½)·r.
 ///
 /// The grids are built in memory. Returns the number of voxels. Throws FileError; ConfigError if
-/// the selection is empty, or if the library was built without OpenVDB.
+/// the selection is empty, or if csom-vdb.so cannot be loaded, which is built where OpenVDB is.
 std::size_t writeVdb(const VoxelSelection& voxels, const LabelSet& labels, const std::string& file);
 
 }  // namespace csom
