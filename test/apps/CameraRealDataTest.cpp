@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "apps/RunCsom.h"
+#include "apps/RunMrpt.h"
 #include "io/IoFixtures.h"
 
 namespace csom::test {
@@ -89,10 +89,8 @@ TEST_F(CameraRealData, becomesAMapWithPosesFromItsScansAndMrptMakesTheSame) {
   EXPECT_GT(lane["road"], occupied * 9 / 10);
 
   // MRPT's own program on the same observations and poses, the network included.
-  const auto stock = runProgram(folder.path(), "env",
-                                {"-C", folder.path(), "timeout", "120", "observations2map", config_,
-                                 folder / "jam.simplemap", "stock_"},
-                                {"LD_PRELOAD=" CSOM_PLUGIN});
+  const auto stock =
+      runMrpt(folder.path(), {"observations2map", config_, folder / "jam.simplemap", "stock_"});
   ASSERT_EQ(stock.exit_code, 0) << stock.output << stock.errors;
   EXPECT_EQ(mapDigest(loadMap(folder / "stock__csom__CSemanticContinuousMap_00.csom").map),
             mapDigest(document.map));

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/RunCsom.h"
+#include "apps/RunMrpt.h"
 #include "rawlog/LogFixtures.h"
 #include "rawlog/SimulatedDrive.h"
 
@@ -112,9 +112,8 @@ TEST_F(Map, EqualsThatOfObservations2map) {
                                     "--write-simplemap", folder / "drive.simplemap"})
                 .exit_code,
             0);
-  const auto stock = runProgram(folder.path(), "observations2map",
-                                {config, folder / "drive.simplemap", folder / "stock_"},
-                                {"LD_PRELOAD=" + std::string(CSOM_PLUGIN)});
+  const auto stock = runMrpt(
+      folder.path(), {"observations2map", config, folder / "drive.simplemap", folder / "stock_"});
   ASSERT_EQ(stock.exit_code, 0) << stock.output << stock.errors;
   std::string stock_map;
   for (const std::string& name : folder.fileNames()) {
@@ -173,10 +172,8 @@ TEST(ShippedConfigurations, ServeObservations2mapAsTheyServeUs) {
       folder.path(), {"map", shipped("rawlogs/room.rawlog"), "-c", shipped("config/room.ini"), "-o",
                       folder / "out", "--write-simplemap", folder / "room.simplemap"});
   ASSERT_EQ(ours.exit_code, 0) << ours.errors;
-  const auto stock =
-      runProgram(folder.path(), "observations2map",
-                 {shipped("config/room.ini"), folder / "room.simplemap", folder / "stock"},
-                 {"LD_PRELOAD=" + std::string(CSOM_PLUGIN)});
+  const auto stock = runMrpt(folder.path(), {"observations2map", shipped("config/room.ini"),
+                                             folder / "room.simplemap", folder / "stock"});
   ASSERT_EQ(stock.exit_code, 0) << stock.output << stock.errors;
   int maps = 0;
   for (const std::string& name : folder.fileNames()) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <regex>
 
-#include "apps/RunCsom.h"
+#include "apps/RunMrpt.h"
 #include "io/IoFixtures.h"
 
 namespace csom::test {
@@ -17,9 +17,8 @@ using ::testing::Not;
 const std::string kConfigs = CSOM_SOURCE_DIR "/config/mrpt/";
 const std::string kDataSets = "/usr/share/mrpt/datasets/";  // of the package mrpt-common
 
-ProgramResult runStock(const TempFolder& folder, std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), {"-C", folder.path(), "timeout", "200"});
-  return runProgram(folder.path(), "env", arguments, {"LD_PRELOAD=" CSOM_PLUGIN});
+ProgramResult runStock(const TempFolder& folder, const std::vector<std::string>& command) {
+  return runMrpt(folder.path(), command, 200);
 }
 
 std::size_t framesOf(const std::string& file) {

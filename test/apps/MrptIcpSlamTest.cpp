@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "apps/RunCsom.h"
+#include "apps/RunMrpt.h"
 #include "io/IoFixtures.h"
 
 namespace csom::test {
@@ -23,9 +23,7 @@ struct Pose {
 
 /// Runs icp-slam in `folder` and returns the last line of the path that it writes.
 Pose finalPose(const TempFolder& folder, const std::string& ini) {
-  const ProgramResult run = runProgram(
-      folder.path(), "env", {"-C", folder.path(), "timeout", "120", "icp-slam", ini, kLog},
-      {"LD_PRELOAD=" CSOM_PLUGIN});
+  const ProgramResult run = runMrpt(folder.path(), {"icp-slam", ini, kLog});
   if (run.exit_code != 0) throw std::runtime_error(run.output + run.errors);
   std::ifstream path(folder / "icp-slam-out/log_estimated_path.txt");
   Pose pose;
@@ -74,9 +72,7 @@ TEST(IcpSlam, refusesTheMapThatIsNoPointsMap) {
   for (std::size_t at = 0; (at = ini.find("semanticPointsMap", at)) != std::string::npos;)
     ini.replace(at, 17, "semanticContinuousMap");
   writeBytes(folder / "alone.ini", ini);
-  const ProgramResult run = runProgram(
-      folder.path(), "env", {"-C", folder.path(), "timeout", "120", "icp-slam", "alone.ini", kLog},
-      {"LD_PRELOAD=" CSOM_PLUGIN});
+  const ProgramResult run = runMrpt(folder.path(), {"icp-slam", "alone.ini", kLog});
   EXPECT_NE(run.exit_code, 0);
   EXPECT_THAT(run.output + run.errors, ::testing::HasSubstr("Neither grid maps nor points map"));
 }

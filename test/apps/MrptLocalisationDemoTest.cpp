@@ -11,7 +11,7 @@
 #include <iostream>
 #include <regex>
 
-#include "apps/RunCsom.h"
+#include "apps/RunMrpt.h"
 #include "io/IoFixtures.h"
 
 namespace csom::test {
@@ -43,9 +43,7 @@ std::string withStockGrid(const std::string& ini) {
 
 /// Distance of the last estimate from the true end of the drive [m].
 double finalError(const TempFolder& folder, const std::string& ini) {
-  const ProgramResult run = runProgram(
-      folder.path(), "env", {"-C", folder.path(), "timeout", "100", "pf-localization", ini},
-      {"LD_PRELOAD=" CSOM_PLUGIN});
+  const ProgramResult run = runMrpt(folder.path(), {"pf-localization", ini});
   if (run.exit_code != 0) throw std::runtime_error(run.output + run.errors);
   const std::regex line(R"(PDF estimation: \(([-\d.]+),([-\d.]+),)");
   double error = 0;

@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "apps/RunCsom.h"
+#include "apps/RunMrpt.h"
 #include "io/IoFixtures.h"
 
 namespace csom::test {
@@ -149,10 +149,8 @@ class Localisation : public ::testing::Test {
     ini = replaced(ini, "3DSceneFrequency = -1",
                    "3DSceneFrequency = " + std::to_string(drive.frames));
     writeBytes(folder_ / "pf.ini", ini);
-    const ProgramResult result = runProgram(
-        folder_.path(), "env",
-        {"-C", folder_.path(), "timeout", "120", "pf-localization", "pf.ini", "drive.rawlog"},
-        {"LD_PRELOAD=" CSOM_PLUGIN});
+    const ProgramResult result =
+        runMrpt(folder_.path(), {"pf-localization", "pf.ini", "drive.rawlog"});
     if (result.exit_code != 0) throw std::runtime_error(result.output + result.errors);
     std::string number = std::to_string(drive.frames - 1);
     number.insert(0, 5 - number.size(), '0');

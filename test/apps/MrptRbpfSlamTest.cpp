@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "apps/RunCsom.h"
+#include "apps/RunMrpt.h"
 #include "io/IoFixtures.h"
 
 namespace csom::test {
@@ -65,10 +65,7 @@ TEST(RbpfSlam, theBestParticleDrivesNearerToTheTruthThanOdometry) {
   std::string ini = readBytes(kConfig);
   ini.insert(ini.find("[MappingApplication]") + 21, "RANDOM_SEED = 1\n");
   writeBytes(folder / "rbpf.ini", ini);
-  const ProgramResult run = runProgram(
-      folder.path(), "env",
-      {"-C", folder.path(), "timeout", "200", "rbpf-slam", "rbpf.ini", "noisy.rawlog"},
-      {"LD_PRELOAD=" CSOM_PLUGIN});
+  const ProgramResult run = runMrpt(folder.path(), {"rbpf-slam", "rbpf.ini", "noisy.rawlog"}, 200);
   ASSERT_EQ(run.exit_code, 0) << run.output.substr(0, 2000) << run.errors;
 
   const Path truth = readPath(folder / "truth.tum", 1);

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "apps/RunCsom.h"
+#include "apps/RunMrpt.h"
 #include "apps/VirtualDisplay.h"
 #include "io/IoFixtures.h"
 #include "maps/SampleObservations.h"
@@ -60,7 +60,7 @@ TEST_F(MrptViewers, sceneViewerShowsTheSceneThatAMapSaves) {
 }
 
 TEST_F(MrptViewers, sceneViewerLoadsThePlugin) {
-  auto viewer = start({"SceneViewer3D", "-l", CSOM_PLUGIN});
+  auto viewer = start({"SceneViewer3D", "-l", CSOM_PLUGIN}, acceptingPlugin());
   EXPECT_TRUE(eventually([&] { return showsAnything() || !viewer.isRunning(); }));
   EXPECT_TRUE(viewer.isRunning()) << printed();
   EXPECT_TRUE(viewer.hasLoaded("libcsom-maps.so"));
@@ -79,7 +79,8 @@ void writeLogWithMap(const std::string& file) {
 
 TEST_F(MrptViewers, rawLogViewerLoadsThePluginAndReadsALogWithAMap) {
   writeLogWithMap(folder_ / "map.rawlog");
-  auto viewer = start({"RawLogViewer", "-l", CSOM_PLUGIN, folder_ / "map.rawlog"});
+  auto viewer =
+      start({"RawLogViewer", "-l", CSOM_PLUGIN, folder_ / "map.rawlog"}, acceptingPlugin());
   EXPECT_TRUE(eventually([&] { return showsAnything() || !viewer.isRunning(); }));
   EXPECT_TRUE(viewer.isRunning()) << printed();
   EXPECT_TRUE(viewer.hasLoaded("libcsom-maps.so"));

@@ -13,7 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/RunCsom.h"
+#include "apps/RunMrpt.h"
 #include "io/IoFixtures.h"
 
 namespace csom::test {
@@ -29,13 +29,10 @@ const std::string kMapSuffix = "_csom__CSemanticContinuousMap_00.csom";
 
 enum class Plugin { Preloaded, Absent };
 
-/// Runs a program of MRPT in `folder`, for two minutes at most.
-ProgramResult runStock(const std::string& folder, std::vector<std::string> arguments,
+ProgramResult runStock(const std::string& folder, const std::vector<std::string>& command,
                        Plugin plugin = Plugin::Preloaded) {
-  std::vector<std::string> environment;
-  if (plugin == Plugin::Preloaded) environment.push_back("LD_PRELOAD=" CSOM_PLUGIN);
-  arguments.insert(arguments.begin(), {"-C", folder, "timeout", "120"});
-  return runProgram(folder, "env", arguments, environment);
+  return runMrpt(folder, command, 120,
+                 plugin == Plugin::Preloaded ? preloadingPlugin() : acceptingPlugin());
 }
 
 CSimpleMap loadSimpleMap(const std::string& file) {

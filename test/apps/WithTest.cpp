@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <regex>
 
-#include "apps/RunCsom.h"
+#include "apps/RunMrpt.h"
 #include "io/IoFixtures.h"
 
 namespace csom::test {
@@ -19,8 +19,9 @@ const std::string kDataSets = "/usr/share/mrpt/datasets/";  // of the package mr
 
 class With : public testing::Test {
  protected:
-  ProgramResult with(std::vector<std::string> command,
-                     const std::vector<std::string>& environment = {}) {
+  ProgramResult with(std::vector<std::string> command, std::vector<std::string> environment = {}) {
+    const std::vector<std::string> accepting = acceptingPlugin();
+    environment.insert(environment.begin(), accepting.begin(), accepting.end());
     // A shell cannot trap what those who started the test have chosen to ignore.
     command.insert(command.begin(), {"--default-signal=TERM,HUP,INT", "-C", folder_.path(),
                                      "timeout", "200", CSOM_PROGRAM, "with", "--"});
@@ -71,16 +72,19 @@ TEST_F(With, aDamagedMapIsSaidToBe) {
 
 TEST_F(With, preloadsThePluginBesideWhatIsPreloadedAnyway) {
   const std::string plugin = std::filesystem::canonical(CSOM_PLUGIN).string();
-  EXPECT_EQ(withShell("echo \"$LD_PRELOAD\"").output, plugin + "\n");
-  const ProgramResult both = withShell("echo \"$LD_PRELOAD\"", {"LD_PRELOAD=libm.so.6"});
-  EXPECT_EQ(both.output, plugin + ":libm.so.6\n");
+  const std::string sanitizer = CSOM_ADDRESS_SANITIZER;
+  EXPECT_EQ(withShell("echo \"$LD_PRELOAD\"").output,
+            plugin + (sanitizer.empty() ? "" : ":" + sanitizer) + "\n");
+  const std::string others = "libm.so.6" + (sanitizer.empty() ? "" : ":" + sanitizer);
+  const ProgramResult both = withShell("echo \"$LD_PRELOAD\"", {"LD_PRELOAD=" + others});
+  EXPECT_EQ(both.output, plugin + ":" + others + "\n");
 }
 
 TEST_F(With, exitCodesAndSignalsArePassedThrough) {
   EXPECT_EQ(withShell("exit 7").exit_code, 7);
-  const ProgramResult crashed = withShell("kill -SEGV $$");
-  EXPECT_EQ(crashed.exit_code, 128 + 11);
-  EXPECT_THAT(crashed.errors, HasSubstr("csom: sh was ended by signal 11 (Segmentation fault)"));
+  const ProgramResult crashed = withShell("kill -KILL $$");
+  EXPECT_EQ(crashed.exit_code, 128 + 9);
+  EXPECT_THAT(crashed.errors, HasSubstr("csom: sh was ended by signal 9 (Killed)"));
 }
 
 TEST_F(With, passesSignalsOnToTheProgram) {
