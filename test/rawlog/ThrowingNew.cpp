@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory that is asked for and not there is std::bad_alloc, as everywhere: AddressSanitizer's own
-// operator new would end the process instead.
+// Memory that is asked for and not there is std::bad_alloc, as everywhere: the operator new of a
+// sanitizer would end the process instead.
 #include <cstdlib>
 #include <new>
 
 extern "C" const char* __asan_default_options();
 const char* __asan_default_options() {
+  return "allocator_may_return_null=1";
+}
+
+extern "C" const char* __tsan_default_options();
+const char* __tsan_default_options() {
   return "allocator_may_return_null=1";
 }
 
