@@ -73,9 +73,9 @@ TEST_F(With, aDamagedMapIsSaidToBe) {
 TEST_F(With, preloadsThePluginBesideWhatIsPreloadedAnyway) {
   const std::string plugin = std::filesystem::canonical(CSOM_PLUGIN).string();
   const std::string sanitizer = CSOM_ADDRESS_SANITIZER;
-  EXPECT_EQ(withShell("echo \"$LD_PRELOAD\"").output,
-            plugin + (sanitizer.empty() ? "" : ":" + sanitizer) + "\n");
-  const std::string others = "libm.so.6" + (sanitizer.empty() ? "" : ":" + sanitizer);
+  const std::string behind = sanitizer.empty() ? "" : ":" + sanitizer;
+  EXPECT_EQ(withShell("echo \"$LD_PRELOAD\"").output, plugin + behind + "\n");
+  const std::string others = "libm.so.6" + behind;
   const ProgramResult both = withShell("echo \"$LD_PRELOAD\"", {"LD_PRELOAD=" + others});
   EXPECT_EQ(both.output, plugin + ":" + others + "\n");
 }

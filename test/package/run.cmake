@@ -38,6 +38,10 @@ foreach(component vision io exports mrpt_exports eval maps rawlog protocols repo
 endforeach()
 
 run(${WORK_DIR}/moved/${BINDIR}/csom --version)
+# Its modules have moved along.
+set(root ${CONSUMER_DIR}/../../..)
+run(${WORK_DIR}/moved/${BINDIR}/csom map ${root}/rawlogs/room.rawlog -c ${root}/config/room.ini
+  -o ${WORK_DIR}/room --poses icp --no-html)
 foreach(file labels/semantickitti.yaml campus.ini)
   if(NOT EXISTS ${WORK_DIR}/moved/${DATADIR}/mrpt_csom/${file})
     message(FATAL_ERROR "not installed: ${file}")

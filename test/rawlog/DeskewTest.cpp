@@ -137,8 +137,7 @@ TEST_F(DeskewTest, NothingIsMovedWithoutPosesForTheWholeTurn) {
 
 using Packet = CObservationVelodyneScan::TVelodyneRawPacket;
 
-/// Times of packets lie where MRPT gives no access, or none that C++ defines: after the blocks of
-/// 1206 bytes.
+/// Times of packets lie where MRPT gives no access, or none that C++ defines: behind the blocks.
 constexpr std::size_t kPlaceOfTime = 1200;
 static_assert(sizeof(Packet) == kPlaceOfTime + 6);
 

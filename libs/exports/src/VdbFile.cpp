@@ -15,9 +15,9 @@ namespace csom {
 namespace {
 
 std::unique_ptr<detail::VdbGrids> makeGrids(double resolution, const std::string& file) try {
+  const auto make =
+      detail::functionOfModule<detail::MakeVdbGrids>(detail::kVdbModule, detail::kMakeVdbGrids);
   std::unique_ptr<detail::VdbGrids> grids;
-  auto* make = reinterpret_cast<detail::MakeVdbGrids*>(
-      detail::functionOfModule(detail::kVdbModule, detail::kMakeVdbGrids));
   make(resolution, grids);
   return grids;
 } catch (const std::runtime_error& error) {

@@ -30,7 +30,7 @@ std::string fileOf(const std::string& module) {
 
 }  // namespace
 
-void* functionOfModule(const std::string& module, const std::string& function) {
+void* addressInModule(const std::string& module, const std::string& function) {
   void* handle = ::dlopen(fileOf(module).c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) fail(module);
   void* address = ::dlsym(handle, function.c_str());

@@ -8,16 +8,20 @@
 
 namespace csom::detail {
 
+/// [m] between where points are expected and where they fit; ICP begins by pairing points so far
+/// apart.
+constexpr double kLargestCorrection = 3;
+
 struct Alignment {
-  mrpt::poses::CPose3D pose;  ///< of the points in the frame of the reference: expected, then found
-  double first_distance;      ///< [m] between points that are paired, at first
-  double last_distance;       ///< [m] at last
-  double overlap;             ///< found: share of the points that have a partner
+  mrpt::poses::CPose3D pose;  ///< of the points in the frame of the reference
+  double overlap = 0;         ///< share of the points that have a partner
 };
 
-/// Lays `points` over `reference` with mrpt::slam::CICP. May throw what MRPT throws.
+/// Lays `points`, `expected` in the frame of `reference`, over it with mrpt::slam::CICP. May throw
+/// what MRPT throws.
 using AlignPoints = void(const mrpt::maps::CSimplePointsMap& reference,
-                         const mrpt::maps::CSimplePointsMap& points, Alignment& alignment);
+                         const mrpt::maps::CSimplePointsMap& points,
+                         const mrpt::poses::CPose3D& expected, Alignment& found);
 
 constexpr char kIcpModule[] = "csom-icp.so";
 constexpr char kAlignPoints[] = "csomAlignPoints";

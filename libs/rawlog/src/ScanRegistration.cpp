@@ -29,9 +29,8 @@ constexpr double kKeyFrameDistance = 0.5;  // [m] driven from one key frame to t
 constexpr double kKeyFrameAngle = 0.17;    // [rad]
 constexpr std::size_t kKeyFrames = 20;
 
-constexpr double kLargestCorrection = 3;         // [m] between the prediction and what fits
-constexpr double kSmallestCorrespondence = 0.1;  // [m] the distance that ICP narrows its pairs to
-constexpr double kLeastOverlap = 0.3;            // share of the scan's points that have a partner
+using detail::kLargestCorrection;
+constexpr double kLeastOverlap = 0.3;  // share of the scan's points that have a partner
 constexpr std::size_t kLeastPoints = 100;
 constexpr double kLongestPrediction = 2;  // [s] nobody drives at the same speed for longer
 /// After so many the submap is lost, and a new one begins where the robot is expected.
@@ -53,11 +52,6 @@ mrpt::maps::CSimplePointsMap pointsMap(const Points& points) {
   for (const Eigen::Vector3f& p : points) map.insertPointFast(p.x(), p.y(), p.z());
   map.mark_as_modified();
   return map;
-}
-
-detail::AlignPoints* loadIcp() {
-  return reinterpret_cast<detail::AlignPoints*>(
-      detail::functionOfModule(detail::kIcpModule, detail::kAlignPoints));
 }
 
 std::string percent(double share) {
@@ -115,9 +109,10 @@ ScanRegistration::Result ScanRegistration::registered(const Points& points,
   }
   const CPose3D& anchor = key_frames_.back().pose;
   const mrpt::maps::CSimplePointsMap scan = pointsMap(points);
-  static detail::AlignPoints* const align_points = loadIcp();
-  detail::Alignment alignment{predicted - anchor, kLargestCorrection, kSmallestCorrespondence, 0};
-  align_points(submap_, scan, alignment);
+  static const auto align_points =
+      detail::functionOfModule<detail::AlignPoints>(detail::kIcpModule, detail::kAlignPoints);
+  detail::Alignment alignment;
+  align_points(submap_, scan, predicted - anchor, alignment);
   const CPose3D pose = anchor + alignment.pose;
   const double correction = (pose - predicted).norm();
   if (!(alignment.overlap >= kLeastOverlap)) {

@@ -15,6 +15,12 @@ namespace csom::detail {
 ///
 /// Throws std::runtime_error in the dynamic linker's words if there is no such module or function.
 /// Thread-safe.
-void* functionOfModule(const std::string& module, const std::string& function);
+void* addressInModule(const std::string& module, const std::string& function);
+
+/// The same as a pointer to a function of type `Function`, which is believed.
+template <class Function>
+Function* functionOfModule(const std::string& module, const std::string& function) {
+  return reinterpret_cast<Function*>(addressInModule(module, function));
+}
 
 }  // namespace csom::detail
