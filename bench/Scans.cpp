@@ -61,7 +61,7 @@ Drive semanticKitti(const std::string& folder) {
     const auto ids =
         readKittiLabels(sequence + "/predictions/" + name.data() + ".label", raw.points.size());
     SensorScan out;
-    out.pose = readKittiPoses(sequence + "/poses.txt").at(i) *
+    out.pose = readKittiPoses(sequence + "/poses.txt").at(i).value() *
                readKittiOdometryCalibration(sequence + "/calib.txt");
     for (std::size_t p = 0; p < raw.points.size(); ++p) {
       const LabelSet::Raw label = labels.classOfRaw(ids[p]);

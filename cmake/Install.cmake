@@ -47,7 +47,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # mrpt-apps: the applications that load the plug-in. The -dev packages: what find_package() needs.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS mrpt-apps)
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-  "libeigen3-dev, libtbb-dev, libyaml-cpp-dev, libsqlite3-dev, libzstd-dev, zlib1g-dev, nlohmann-json3-dev, liboctomap-dev, libdynamicedt3d-dev, libassimp-dev, libpng-dev, libzip-dev, libopencv-dev, libmrpt-maps-dev")
+  "libeigen3-dev, libtbb-dev, libyaml-cpp-dev, libsqlite3-dev, libzstd-dev, liblzf-dev, zlib1g-dev, nlohmann-json3-dev, liboctomap-dev, libdynamicedt3d-dev, libassimp-dev, libpng-dev, libzip-dev, libopencv-dev, libmrpt-maps-dev")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
 "Builds maps whose voxels hold a probability for each semantic class, from
 the rawlogs of the Mobile Robot Programming Toolkit or inside its own

@@ -35,7 +35,8 @@ void addMapOptions(CLI::App& command, MapArguments& arguments) {
       .add_option(
           "--resume", arguments.resume,
           "Go on with the run that was to write into this folder and was stopped, killed or "
-          "ran out of disk; it takes logs and options from there")
+          "ran out of disk; it takes logs and options from there, but name --write-simplemap and "
+          "--label-cache again: nothing is written elsewhere because a file says so")
       ->type_name("FOLDER");
   command
       .add_option("--checkpoint", arguments.checkpoint,
@@ -80,12 +81,11 @@ void check(const MapArguments& arguments) {
     return;
   }
   if (!arguments.logs.empty() || !arguments.config.empty() || !arguments.output.empty() ||
-      !arguments.poses.empty() || arguments.threads || !arguments.label_cache.empty() ||
-      !arguments.simplemap.empty() || arguments.no_deskew)
+      !arguments.poses.empty() || arguments.threads || arguments.no_deskew)
     throw ConfigError(
-        "--resume takes logs, configuration, poses, threads and output from the run that it goes "
-        "on with; beside it there may be --checkpoint, --max-memory, --no-html, --color-blind and "
-        "--json");
+        "--resume takes logs, configuration, poses and threads from the run that it goes on with; "
+        "beside it there may be --write-simplemap, --label-cache, --checkpoint, --max-memory, "
+        "--no-html, --color-blind and --json");
 }
 
 MappingRequest requestOf(const MapArguments& arguments) {
@@ -110,8 +110,12 @@ std::map<std::string, std::string> notesOf(const MapArguments& arguments) {
 }
 
 void applyNotes(const MapStore::State& state, MapArguments& arguments) {
-  if (const auto simplemap = state.find("note.simplemap"); simplemap != state.end())
-    arguments.simplemap = simplemap->second;
+  const auto simplemap = state.find("note.simplemap");
+  if (simplemap != state.end() && arguments.simplemap.empty())
+    throw ConfigError("that run was to write a simplemap, '" + simplemap->second +
+                      "'; say so again with --write-simplemap FILE");
+  if (simplemap == state.end() && !arguments.simplemap.empty())
+    throw ConfigError("--write-simplemap: the run that is gone on with did not write one");
   arguments.no_html |= state.count("note.no_html") > 0;
   arguments.color_blind |= state.count("note.color_blind") > 0;
 }

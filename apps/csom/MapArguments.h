@@ -40,6 +40,7 @@ MappingRequest requestOf(const MapArguments& arguments);
 
 /// What a resumed run must know of the arguments beside the request, and back.
 std::map<std::string, std::string> notesOf(const MapArguments& arguments);
+/// Throws ConfigError if the run wrote a file outside of its folder that is not named again.
 void applyNotes(const MapStore::State& state, MapArguments& arguments);
 
 }  // namespace csom

@@ -114,6 +114,8 @@ RunRecord recordOf(const MappingRequest& request, const MappingResult& result, d
   record.unused = statistics.unused;
   record.label_rejects = {statistics.labels.missing, statistics.labels.unknown,
                           statistics.labels.ignored, statistics.labels.ambiguous};
+  record.kept_unlabelled = statistics.labels.unlabelled + statistics.labels.kept_unknown;
+  record.no_returns = statistics.no_returns;
   for (const auto& [what, count] : result.refused)
     record.refused.push_back({what.first, what.second, count});
   if (const auto cameras = result.map->cameraStatistics())

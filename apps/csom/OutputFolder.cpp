@@ -79,6 +79,10 @@ StagedResults::StagedResults(const OutputFolder& target)
   std::error_code error;
   fs::remove_all(path_, error);  // a dead process may have had our number
   created_ = missingFolders(path_);
+  temporary_.push_back(std::make_unique<TemporaryPath>(path_.string()));
+  for (const fs::path& folder : created_)
+    temporary_.push_back(
+        std::make_unique<TemporaryPath>(folder.string(), TemporaryPath::Kind::IfEmpty));
   fs::create_directories(path_, error);
   if (error) throw FileError(path_.string(), "cannot be created: " + error.message());
   removeWhatTheDeadLeft(target.path());

@@ -2,7 +2,10 @@
 // The folder that a command writes its results to.
 #pragma once
 
+#include <csom/core/TemporaryPath.h>
+
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -47,6 +50,7 @@ class StagedResults {
   const OutputFolder& target_;
   std::filesystem::path path_;
   std::vector<std::filesystem::path> created_;  ///< innermost first
+  std::vector<std::unique_ptr<TemporaryPath>> temporary_;
 };
 
 }  // namespace csom

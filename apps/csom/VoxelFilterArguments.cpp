@@ -17,9 +17,9 @@ Eigen::AlignedBox3d parseBox(const std::string& text) {
   const auto n = parseNumbers<6>("--box", text);
   const Eigen::AlignedBox3d box(Eigen::Vector3d(n[0], n[1], n[2]),
                                 Eigen::Vector3d(n[3], n[4], n[5]));
-  if (!(box.sizes().minCoeff() > 0))
+  if (!(box.sizes().minCoeff() >= 0))
     throw CLI::ValidationError(
-        "--box", "'" + text + "' is not a box: x0 < x1, y0 < y1 and z0 < z1 must hold");
+        "--box", "'" + text + "' is not a box: x0 <= x1, y0 <= y1 and z0 <= z1 must hold");
   return box;
 }
 

@@ -8,6 +8,7 @@
 #include <csom/exports/PointFiles.h>
 #include <csom/exports/VdbFile.h>
 #include <csom/io/MapFile.h>
+#include <csom/io/TextParser.h>
 #include <csom/mrpt_exports/MrptFiles.h>
 
 #include <cstdio>
@@ -134,7 +135,7 @@ void runExport(const ExportArguments& arguments) {
     written = writeExport(arguments, voxels, document.labels);
   }
   // Not to standard output: -o may be /dev/stdout.
-  std::fprintf(stderr, "%s: %s\n", arguments.output.c_str(), written.c_str());
+  std::fprintf(stderr, "%s: %s\n", detail::printable(arguments.output).c_str(), written.c_str());
 }
 
 NavigationOptions::Band parseBand(const std::string& text) {

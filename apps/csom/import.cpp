@@ -42,11 +42,11 @@ void printSummary(const ImportSummary& summary, const std::string& rawlog) {
   for (const std::string& warning : summary.warnings)
     std::fprintf(stderr, "csom: warning: %s\n", detail::printable(warning).c_str());
   if (summary.points == 0)
-    std::fprintf(stderr, "csom: warning: %s holds no point\n", rawlog.c_str());
-  std::printf("%s: %s, %s", rawlog.c_str(), formatCount(summary.scans, "scan").c_str(),
+    std::fprintf(stderr, "csom: warning: %s holds no point\n", detail::printable(rawlog).c_str());
+  std::printf("%s: %s, %s", detail::printable(rawlog).c_str(), formatCount(summary.scans, "scan").c_str(),
               formatCount(summary.points, "point").c_str());
   if (summary.images > 0) std::printf(", %s", formatCount(summary.images, "image").c_str());
-  std::printf("\n");
+  std::printf("\nlabels: %s\n", detail::printable(summary.labels).c_str());
 }
 
 void addSemanticKitti(CLI::App& import_command) {
@@ -110,22 +110,20 @@ void addPcd(CLI::App& import_command) {
   struct Arguments : CommonArguments {
     PcdImport request;
   };
-  static const std::map<std::string, PcdField> kFields{
-      {"auto", PcdField::Auto}, {"label", PcdField::Label}, {"intensity", PcdField::Intensity}};
   static const std::map<std::string, PcdRowPolicy> kPolicies{
       {"refuse", PcdRowPolicy::Refuse},
       {"skip", PcdRowPolicy::SkipRow},
       {"ignore-extra", PcdRowPolicy::IgnoreExtra}};
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = import_command.add_subcommand(
-      "pcd", "Point clouds in PCD files, ascii or binary, one scan a file");
+      "pcd", "Point clouds in PCD files of any kind, one scan a file");
   command->add_option("FILE", arguments->request.files, "PCD files, or folders of them")
       ->required();
   command->add_flag("--single-scan", arguments->request.single_scan, "All files are one scan");
   command
-      ->add_option("--labels", arguments->request.field,
-                   "Field that holds the class: label | intensity | auto (label if there)")
-      ->transform(oneOf(kFields))
+      ->add_option("--labels", arguments->request.label_field,
+                   "Field that holds the class, such as classification or intensity, in any case "
+                   "(default: label, if there)")
       ->option_text("FIELD");
   command
       ->add_option("--irregular-rows", arguments->request.row_policy,

@@ -153,7 +153,8 @@ void runVerify(const InfoArguments& arguments) {
   if (arguments.json)
     printJson(verificationToJson(found));
   else if (found.faults.empty())
-    std::printf("%s: intact%s, %zu chunks, %zu scans, digest %s\n", arguments.file.c_str(),
+    std::printf("%s: intact%s, %zu chunks, %zu scans, digest %s\n",
+                detail::printable(arguments.file).c_str(),
                 found.finished ? "" : ", unfinished", found.chunks, found.scans,
                 found.digest.c_str());
   for (const std::string& fault : found.faults)

@@ -7,9 +7,11 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <string>
 
+#include "StopSignal.h"
 #include "commands.h"
 
 namespace {
@@ -33,6 +35,19 @@ std::string unknownCommand(const CLI::App& program, int argc, char** argv) {
   return "";
 }
 
+/// Texts that were asked for (--help, --version, --print-config) are a success like any other: they
+/// must have been written.
+void parse(CLI::App& program, int argc, char** argv) {
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& end) {
+    if (end.get_exit_code() != 0) throw;
+    program.exit(end);
+    std::cout.flush();
+    if (!std::cout) throw csom::FileError("standard output", "cannot be written");
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -41,6 +56,7 @@ int main(int argc, char** argv) {
   constexpr int kInterrupted = 128 + SIGINT;
   // A file that may not grow any more is an error like a full disk, not a reason to die.
   std::signal(SIGXFSZ, SIG_IGN);
+  const csom::SignalCleanup cleanup;
 
   CLI::App program{"Continuous semantic occupancy maps from MRPT rawlogs."};
   program.set_version_flag("--version", "csom " CSOM_VERSION);
@@ -61,18 +77,19 @@ int main(int argc, char** argv) {
   csom::addWithCommand(program);
 
   if (const std::string unknown = unknownCommand(program, argc, argv); !unknown.empty()) {
-    std::fprintf(stderr, "csom: %s\n", unknown.c_str());
+    std::fprintf(stderr, "csom: %s\n", csom::detail::printable(unknown).c_str());
     return kUsage;
   }
   try {
-    program.parse(argc, argv);
+    parse(program, argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       throw csom::FileError("standard output", "cannot be written");
     return 0;
   } catch (const CLI::RuntimeError& error) {
     return error.get_exit_code();
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : kUsage;
+    program.exit(error);
+    return kUsage;
   } catch (const csom::ConfigError& error) {
     std::fprintf(stderr, "csom: %s\n", csom::detail::printable(error.what()).c_str());
     return kUsage;

@@ -80,11 +80,18 @@ void printSummary(const RunRecord& record, const MapFigures& figures, const Outp
   if (pointsRejected(record) > 0)
     std::printf("rejected  %s points (reasons in run.json)\n",
                 formatCount(pointsRejected(record)).c_str());
+  if (record.kept_unlabelled > 0)
+    std::printf("no label  %s in the map as unlabelled\n",
+                formatCount(record.kept_unlabelled, "point").c_str());
+  if (record.no_returns > 0)
+    std::printf("no return %s hit nothing\n", formatCount(record.no_returns, "beam").c_str());
   if (const auto& cameras = record.camera_labels)
-    std::printf("cameras   %s labelled; %s outside of their view, %s hidden or at an edge\n",
+    std::printf("cameras   %s labelled; %s outside of their view, %s hidden or at an edge%s\n",
                 formatCount(cameras->points.labelled, "point").c_str(),
                 formatCount(cameras->points.outside_view).c_str(),
-                formatCount(cameras->points.hidden + cameras->points.at_edge).c_str());
+                formatCount(cameras->points.hidden + cameras->points.at_edge).c_str(),
+                cameras->points.kept_unlabelled > 0 ? ": in the map as unlabelled"
+                                                    : ": not in the map");
   for (const RefusedObservations& refused : record.refused)
     std::printf("unused    %s %s: %s\n", formatCount(refused.count).c_str(),
                 detail::printable(refused.observation_class).c_str(),
@@ -92,9 +99,10 @@ void printSummary(const RunRecord& record, const MapFigures& figures, const Outp
   std::printf("map       %s voxels known, %s occupied, %.1f MB in memory: %s\n",
               formatCount(figures.known_voxels).c_str(),
               formatCount(figures.occupied_voxels).c_str(),
-              static_cast<double>(figures.memory_bytes) / 1e6, folder.file("map.csom").c_str());
+              static_cast<double>(figures.memory_bytes) / 1e6, detail::printable(folder.file("map.csom")).c_str());
   std::printf("time      %.2f s\n", record.wall_seconds);
-  std::printf("report    %s\n", folder.file(html ? "report.html" : "run.json").c_str());
+  std::printf("report    %s\n",
+              detail::printable(folder.file(html ? "report.html" : "run.json")).c_str());
 }
 
 void writeSimpleMap(const mrpt::maps::CSimpleMap& key_frames, const std::string& file) {
@@ -175,7 +183,9 @@ MappingRequest resumedRequest(MapArguments& arguments) {
                                           ": no run was stopped there that could go on");
   const MapStore::State state = readState(file);
   applyNotes(state, arguments);
-  return requestOf(state, file);
+  MappingRequest request = requestOf(state, file);
+  request.label_cache = arguments.label_cache;  // none if that is empty
+  return request;
 }
 
 void runMap(MapArguments arguments) {

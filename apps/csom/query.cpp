@@ -79,7 +79,7 @@ void printVoxel(const DirichletVoxel& voxel, const LabelSet& labels) {
 void queryPoint(const MapDocument& document, const QueryArguments& arguments) {
   const Eigen::Vector3d point((*arguments.point)[0], (*arguments.point)[1], (*arguments.point)[2]);
   const Grid& grid = document.map.grid();
-  if (!grid.contains(point))
+  if (!grid.isAddressable(point))
     throw ConfigError("--point " + toText(point) + " is farther than this map can address");
   const VoxelIndex index = grid.voxelAt(point);
   const DirichletVoxel voxel = document.map.voxel(index);
@@ -98,7 +98,7 @@ void queryPoint(const MapDocument& document, const QueryArguments& arguments) {
 void queryRay(const MapDocument& document, const QueryArguments& arguments) {
   const Eigen::Vector3d origin = vectorAt(*arguments.ray, 0);
   const Eigen::Vector3d direction = vectorAt(*arguments.ray, 3);
-  if (!document.map.grid().contains(origin))
+  if (!document.map.grid().isAddressable(origin))
     throw ConfigError("--ray starts farther away than this map can address");
   const auto hit = document.map.castRay(origin, direction, arguments.max_range);
   if (arguments.json) {
@@ -141,7 +141,7 @@ void queryNearest(const MapDocument& document, const QueryArguments& arguments) 
   const Eigen::Vector3d point((*arguments.nearest)[0], (*arguments.nearest)[1],
                               (*arguments.nearest)[2]);
   const Grid& grid = document.map.grid();
-  if (!grid.contains(point))
+  if (!grid.isAddressable(point))
     throw ConfigError("--nearest " + toText(point) + " is farther than this map can address");
   const auto nearest =
       nearestOf(document.map, classesNamed("--classes", arguments.classes, document.labels), point,
@@ -225,9 +225,9 @@ void parseRay(const std::string& text, QueryArguments& arguments) {
 void parseBox(const std::string& text, QueryArguments& arguments) {
   arguments.box = parseNumbers<6>("--box", text);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (!((*arguments.box)[axis] < (*arguments.box)[axis + 3]))
+    if (!((*arguments.box)[axis] <= (*arguments.box)[axis + 3]))
       throw CLI::ValidationError(
-          "--box", "'" + text + "' is not a box: x0 < x1, y0 < y1 and z0 < z1 must hold");
+          "--box", "'" + text + "' is not a box: x0 <= x1, y0 <= y1 and z0 <= z1 must hold");
 }
 
 void parseMaxRange(const std::string& text, QueryArguments& arguments) {

@@ -28,7 +28,8 @@ void runRepair(const RepairArguments& arguments) {
     repair.document.meta["lost_" + std::to_string(i + 1)] = repair.losses[i];
   saveMap(repair.document, arguments.output);
   const MapDocument& document = repair.document;
-  std::printf("%s: %zu chunks, %zu known voxels, %zu scans, digest %s\n", arguments.output.c_str(),
+  std::printf("%s: %zu chunks, %zu known voxels, %zu scans, digest %s\n",
+              detail::printable(arguments.output).c_str(),
               document.map.chunks().chunkCount(), document.map.knownVoxelCount(),
               document.scans.size(), mapDigest(document.map).c_str());
   for (const std::string& loss : repair.losses)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // csom report: the page and the pictures of a run, made again.
 #include <csom/io/MapFile.h>
+#include <csom/io/TextParser.h>
 #include <csom/report/Report.h>
 #include <csom/report/RunRecordReader.h>
 
@@ -36,7 +37,8 @@ void runReport(const ReportArguments& arguments) {
   StagedResults results(target);
   writeReport(run.record, document, run.figures, results.path(), options);
   results.commit();
-  for (const std::string& name : target.results()) std::printf("%s\n", target.file(name).c_str());
+  for (const std::string& name : target.results())
+    std::printf("%s\n", detail::printable(target.file(name)).c_str());
 }
 
 }  // namespace

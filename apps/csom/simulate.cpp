@@ -4,6 +4,7 @@
 #include <csom/eval/GroundTruth.h>
 #include <csom/eval/Scenario.h>
 #include <csom/io/MapFile.h>
+#include <csom/io/TextParser.h>
 #include <csom/rawlog/Simulation.h>
 #include <csom/report/Format.h>
 
@@ -77,7 +78,8 @@ void printText(const SimulateArguments& arguments, const SimulationSummary& summ
   if (summary.length > 0) std::printf(", %.1f m", summary.length);
   std::printf("\n");
   if (truth)
-    std::printf("%s: %s occupied and %s free voxels of %g m\n", arguments.truth.c_str(),
+    std::printf("%s: %s occupied and %s free voxels of %g m\n",
+                detail::printable(arguments.truth).c_str(),
                 formatCount(truth->occupied).c_str(), formatCount(truth->free).c_str(),
                 truth->resolution);
 }

@@ -3,9 +3,13 @@
 #include <csom/core/Options.h>
 #include <csom/core/types.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace csom {
 
@@ -28,6 +32,15 @@ constexpr EnumWords<FreeSpace, 3> kFreeSpaces{
 [[noreturn]] void reject(const std::string& key, const std::string& value,
                          const std::string& accepted) {
   throw OptionError(key + " = " + value + ": expected " + accepted);
+}
+
+/// Nothing if the text is no number, or an infinite one.
+std::optional<double> finiteNumber(const std::string& text) {
+  const char* const end = text.data() + text.size();
+  double number = 0;
+  const auto result = std::from_chars(text.data(), end, number);
+  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(number)) return std::nullopt;
+  return number;
 }
 
 void checkRange(const char* key, double value, double min, double max) {
@@ -74,28 +87,30 @@ void parse(const std::string& key, const std::string& text, FreeSpace& value) {
   parseWord(kFreeSpaces, key, text, value);
 }
 void parse(const std::string& key, const std::string& text, bool& value) {
-  if (text == "on" || text == "true" || text == "1") {
+  // The words of MRPT's ini files in any case, and ours; formulas give 1.000000e+00.
+  std::string word = text;
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::optional<double> number = finiteNumber(word);
+  if (word == "on" || word == "true" || word == "yes" || number == 1.0) {
     value = true;
-  } else if (text == "off" || text == "false" || text == "0") {
+  } else if (word == "off" || word == "false" || word == "no" || number == 0.0) {
     value = false;
   } else {
     reject(key, text, "on | off");
   }
 }
 void parse(const std::string& key, const std::string& text, int& value) {
-  const char* const end = text.data() + text.size();
-  int parsed = 0;
-  const auto result = std::from_chars(text.data(), end, parsed);
-  if (result.ec != std::errc() || result.ptr != end) reject(key, text, "a whole number");
-  value = parsed;
+  const std::optional<double> number = finiteNumber(text);
+  constexpr double kLargest = std::numeric_limits<int>::max();
+  if (!number || *number != std::floor(*number) || std::abs(*number) > kLargest)
+    reject(key, text, "a whole number");
+  value = static_cast<int>(*number);
 }
 void parse(const std::string& key, const std::string& text, double& value) {
-  const char* const end = text.data() + text.size();
-  double parsed = 0;
-  const auto result = std::from_chars(text.data(), end, parsed);
-  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(parsed))
-    reject(key, text, "a finite number");
-  value = parsed;
+  const std::optional<double> number = finiteNumber(text);
+  if (!number) reject(key, text, "a finite number");
+  value = *number;
 }
 
 void Options::validate() const {

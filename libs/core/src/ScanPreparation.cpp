@@ -55,13 +55,20 @@ void checkSizes(const Scan& scan, int classes) {
   }
 }
 
+/// Points are returns: no share of them may be free, see isClassOfReturn().
 bool validScores(const float* scores, int classes) {
+  if (scores[kFreeClass] != 0) return false;
   double sum = 0;
   for (int k = 0; k < classes; ++k) {
     if (!(scores[k] >= 0)) return false;
     sum += scores[k];
   }
   return std::abs(sum - 1) <= kScoreTolerance;
+}
+
+/// A beam was thrown back where a point is, so a point that claims to be free is wrong.
+bool isClassOfReturn(ClassId id, int classes) {
+  return id != kFreeClass && id < classes;
 }
 
 class Preparation {
@@ -115,7 +122,8 @@ class Preparation {
       return RejectReason::OutsideIndexRange;
     if (range > longest_beam_) return RejectReason::BeamTooLong;
     if (!scan_.isSoft()) {
-      if (scan_.labels[i] >= options_.number_of_classes) return RejectReason::ClassOutOfRange;
+      if (!isClassOfReturn(scan_.labels[i], options_.number_of_classes))
+        return RejectReason::ClassOutOfRange;
     } else if (!validScores(rowOf(scan_.scores, i), options_.number_of_classes)) {
       return RejectReason::InvalidScores;
     }
@@ -131,7 +139,7 @@ class Preparation {
            p.cwiseAbs().maxCoeff() < plain_reach_;
   }
   bool isPlain(std::size_t i) const {
-    return !scan_.isSoft() && scan_.labels[i] < options_.number_of_classes &&
+    return !scan_.isSoft() && isClassOfReturn(scan_.labels[i], options_.number_of_classes) &&
            isFarFromLimits(scan_.points[i]);
   }
 

@@ -84,23 +84,22 @@ DirichletVoxel SemanticMap::voxel(const VoxelIndex& index) const {
 }
 
 DirichletVoxel SemanticMap::at(const Eigen::Vector3d& point) const {
-  return grid_.contains(point) ? voxel(grid_.voxelAt(point)) : view(nullptr, 0);
+  return grid_.isAddressable(point) ? voxel(grid_.voxelAt(point)) : view(nullptr, 0);
 }
 
 std::optional<RayHit> SemanticMap::castRay(const Eigen::Vector3d& origin,
                                            const Eigen::Vector3d& direction, double max_range,
                                            bool stop_at_unknown) const {
   const double norm = direction.norm();
-  if (!grid_.contains(origin) || !(norm > 0) || !std::isfinite(norm) || !(max_range > 0))
+  if (!grid_.isAddressable(origin) || !(norm > 0) || !std::isfinite(norm) || !(max_range > 0))
     return std::nullopt;
   const Eigen::Vector3d unit = direction / norm;
-  const double limit = grid_.resolution() * (kMaxVoxelIndex - 1);
   double range = max_range;
   for (int axis = 0; axis < 3; ++axis) {  // end where indices end
-    if (unit[axis] > 0) range = std::min(range, (limit - origin[axis]) / unit[axis]);
-    if (unit[axis] < 0) range = std::min(range, (-limit - origin[axis]) / unit[axis]);
+    if (unit[axis] == 0) continue;
+    const double end = grid_.resolution() * (unit[axis] > 0 ? kLastVoxelIndex + 1.0 : kFirstVoxelIndex);
+    range = std::min(range, std::max(0.0, (end - origin[axis]) / unit[axis]));
   }
-  if (!(range > 0)) return std::nullopt;
 
   std::optional<RayHit> hit;
   ChunkIndex cached_index;
@@ -108,6 +107,7 @@ std::optional<RayHit> SemanticMap::castRay(const Eigen::Vector3d& origin,
   bool first = true;
   detail::traverseVoxels(grid_, origin, origin + range * unit,
                          [&](const VoxelIndex& index, double entered) {
+                           if (!isAddressable(chunkOf(index))) return false;
                            if (first || chunkOf(index) != cached_index) {
                              first = false;
                              cached_index = chunkOf(index);
@@ -128,7 +128,7 @@ std::optional<RayHit> SemanticMap::castRay(const Eigen::Vector3d& origin,
 std::optional<Neighbour> SemanticMap::nearestOccupied(const Eigen::Vector3d& point,
                                                       double max_distance,
                                                       std::optional<ClassId> only_class) const {
-  if (!grid_.contains(point) || !(max_distance >= 0)) return std::nullopt;
+  if (!grid_.isAddressable(point) || !(max_distance >= 0)) return std::nullopt;
   double best_squared = max_distance * max_distance;
   std::optional<Neighbour> best;
   const auto consider = [&](const ChunkIndex& index, const Chunk& chunk) {

@@ -27,16 +27,19 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kGroundThickness = 0.2;
 
 YAML::Node parseFile(const std::string& file) {
+  std::error_code error;
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+    throw ConfigError(file + ": is no regular file");
   std::ostringstream text;
   std::ifstream stream(file);
-  if (std::filesystem::is_directory(file) || !(text << stream.rdbuf()))
+  if (!(text << stream.rdbuf()))
     throw ConfigError(file +
                       ": cannot be read, or is empty; give a world file (see config/worlds)");
   try {
     return YAML::Load(text.str());
-  } catch (const YAML::Exception& error) {
-    throw ConfigError(file + ":" + std::to_string(error.mark.line + 1) +
-                      ": no valid YAML: " + error.msg);
+  } catch (const YAML::Exception& wrong) {
+    throw ConfigError(file + ":" + std::to_string(wrong.mark.line + 1) +
+                      ": no valid YAML: " + wrong.msg);
   }
 }
 

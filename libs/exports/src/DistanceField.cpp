@@ -87,7 +87,7 @@ DistanceField::DistanceField(const VoxelSelection& voxels, double max_distance)
   if (!(max_distance > 0) || !(reach < 30000))
     throw ConfigError("the maximum distance must lie between 0 and 30,000 voxels");
   const VoxelSelection obstacles = voxels.withoutBox().withFreeVoxels(false);
-  obstacles.requireVoxels();
+  obstacles.requireResampledVoxels();
   VoxelFilter all;
   all.free_voxels = true;
   const VoxelSelection everything(voxels.map(), all, voxels.frame());

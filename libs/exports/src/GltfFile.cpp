@@ -98,6 +98,7 @@ std::unique_ptr<aiScene> sceneOf(const RectanglesOfClass& rectangles, const Labe
 std::size_t writeGlb(const VoxelSelection& voxels, const LabelSet& labels,
                      const std::string& file) {
   detail::checkExport(voxels.withFreeVoxels(false), labels);
+  voxels.withFreeVoxels(false).requireResampledVoxels();
   OutputFile out(file);
   RectanglesOfClass rectangles;
   std::size_t triangles = 0;

@@ -31,7 +31,7 @@ NavigationGrid::NavigationGrid(const VoxelSelection& selection, const Navigation
     : resolution_(selection.resolution()) {
   checkOptions(options);
   const VoxelSelection voxels = selection.withFreeVoxels(true);
-  voxels.requireVoxels();
+  voxels.requireResampledVoxels();
   measure(voxels, options);
   findGround(voxels, options);
   spreadGround(options);

@@ -102,6 +102,7 @@ std::size_t writeOctomap(const VoxelSelection& selection, const LabelSet& labels
     throw ConfigError(file +
                       ": name the file .ot (occupancy and classes) or .bt (occupancy alone)");
   detail::checkExport(selection, labels);
+  selection.requireResampledVoxels();
   const VoxelSelection voxels = selection.withFreeVoxels(true);
   if (extension == ".bt") {
     octomap::OcTree tree(voxels.resolution());

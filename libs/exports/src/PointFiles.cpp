@@ -20,8 +20,14 @@ std::string_view shortest(double value, std::array<char, 32>& buffer) {
   return {buffer.data(), static_cast<std::size_t>(result.ptr - buffer.data())};
 }
 
-/// A CSV field, quoted if it must be (RFC 4180).
-std::string csvField(const std::string& text) {
+/// Spreadsheets take what begins like a formula for one, and would run it.
+bool looksLikeFormula(const std::string& text) {
+  return !text.empty() && std::string("=+-@\t\r").find(text.front()) != std::string::npos;
+}
+
+/// A CSV field, quoted if it must be (RFC 4180), that is no formula.
+std::string csvField(const std::string& name) {
+  const std::string text = looksLikeFormula(name) ? "'" + name : name;
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

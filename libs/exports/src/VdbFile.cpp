@@ -30,6 +30,7 @@ std::unique_ptr<detail::VdbGrids> makeGrids(double resolution, const std::string
 std::size_t writeVdb(const VoxelSelection& selection, const LabelSet& labels,
                      const std::string& file) {
   detail::checkExport(selection, labels);
+  selection.requireResampledVoxels();
   OutputFile out(file);
   const auto grids = makeGrids(selection.resolution(), file);
   std::size_t count = 0;

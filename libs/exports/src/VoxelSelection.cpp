@@ -14,21 +14,46 @@ namespace {
 constexpr std::size_t kReportInterval = std::size_t{1} << 14U;
 
 std::int32_t clampedIndex(double value) {
-  return static_cast<std::int32_t>(std::clamp<double>(value, -kMaxVoxelIndex - 1, kMaxVoxelIndex));
+  return static_cast<std::int32_t>(std::clamp<double>(value, kFirstVoxelIndex, kLastVoxelIndex));
+}
+
+double centerOf(double index, double resolution) {
+  return (index + 0.5) * resolution;
+}
+
+/// The first voxel whose centre is not below `from`. What a quotient says may be off by a rounding;
+/// the centres themselves decide.
+double firstCenterFrom(double from, double resolution) {
+  double index = std::ceil(from / resolution - 0.5);
+  while (centerOf(index, resolution) < from) ++index;
+  while (centerOf(index - 1, resolution) >= from) --index;
+  return index;
+}
+
+double lastCenterTo(double to, double resolution) {
+  double index = std::floor(to / resolution - 0.5);
+  while (centerOf(index, resolution) > to) --index;
+  while (centerOf(index + 1, resolution) <= to) ++index;
+  return index;
 }
 
 }  // namespace
 
 std::optional<VoxelBox> voxelsWithCenterIn(const Grid& grid, const Eigen::AlignedBox3d& box) {
-  const Eigen::Array3d first = (box.min() / grid.resolution()).array() - 0.5;
-  const Eigen::Array3d last = (box.max() / grid.resolution()).array() - 0.5;
-  const VoxelBox voxels{{clampedIndex(std::ceil(first.x())), clampedIndex(std::ceil(first.y())),
-                         clampedIndex(std::ceil(first.z()))},
-                        {clampedIndex(std::floor(last.x())), clampedIndex(std::floor(last.y())),
-                         clampedIndex(std::floor(last.z()))}};
-  const bool some =
-      voxels.min.x <= voxels.max.x && voxels.min.y <= voxels.max.y && voxels.min.z <= voxels.max.z;
-  return some ? std::optional<VoxelBox>(voxels) : std::nullopt;
+  const double r = grid.resolution();
+  // Beyond all indices, where a step of one would be lost in the number.
+  const double farthest = centerOf(kLastVoxelIndex + 2.0, r);
+  VoxelBox voxels;
+  std::int32_t* const first[]{&voxels.min.x, &voxels.min.y, &voxels.min.z};
+  std::int32_t* const last[]{&voxels.max.x, &voxels.max.y, &voxels.max.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double from = firstCenterFrom(std::clamp(box.min()[axis], -farthest, farthest), r);
+    const double to = lastCenterTo(std::clamp(box.max()[axis], -farthest, farthest), r);
+    if (!(from <= to) || from > kLastVoxelIndex || to < kFirstVoxelIndex) return std::nullopt;
+    *first[axis] = clampedIndex(from);
+    *last[axis] = clampedIndex(to);
+  }
+  return voxels;
 }
 
 VoxelSelection::VoxelSelection(const SemanticMap& map, VoxelFilter filter,
@@ -89,7 +114,7 @@ VoxelBox VoxelSelection::targetsOf(const VoxelIndex& index) const {
   constexpr double kHalfVoxel = 0.5 + 1e-6;
   const Eigen::Array3d center = (frame_ * map_.grid().center(index)).array() / resolution() - 0.5;
   const Eigen::Array3d reach = frame_.linear().cwiseAbs().rowwise().sum().array() * kHalfVoxel;
-  if ((center.abs() + reach).maxCoeff() > kMaxVoxelIndex)
+  if ((center.abs() + reach).maxCoeff() > kLastVoxelIndex)
     throw ConfigError("the pose of the export moves voxels farther away than a grid of " +
                       toString(resolution()) + " m can address; choose a nearer frame");
   const Eigen::Array3d first = (center - reach).ceil();
@@ -100,7 +125,7 @@ VoxelBox VoxelSelection::targetsOf(const VoxelIndex& index) const {
 
 bool VoxelSelection::isSource(const VoxelIndex& index, const Eigen::Vector3d& target_center) const {
   const Eigen::Vector3d point = to_map_ * target_center;
-  return map_.grid().contains(point) && map_.grid().voxelAt(point) == index;
+  return map_.grid().isAddressable(point) && map_.grid().voxelAt(point) == index;
 }
 
 void VoxelSelection::report(std::size_t seen) const {
@@ -122,6 +147,16 @@ void VoxelSelection::requireVoxels() const {
       std::string(filtered ? "no voxel of the map passes the filters"
                            : "the map has no occupied voxel") +
       ": there is nothing to export; 'csom info' shows the classes and the extent of a map");
+}
+
+void VoxelSelection::requireResampledVoxels() const {
+  requireVoxels();
+  bool any = false;
+  forEachResampled([&](const VoxelIndex&, const ExportedVoxel&) { any = true; });
+  if (any) return;
+  throw ConfigError(
+      "the selection is so small that, in the pose of the export, no voxel of the exported grid has "
+      "its centre in it: there is nothing to export; select more, or choose a pose of whole voxels");
 }
 
 std::optional<VoxelBox> VoxelSelection::resampledBounds() const {

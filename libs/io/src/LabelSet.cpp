@@ -15,8 +15,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr char kUnlabelled[] = "unlabelled";
-
 /// share/mrpt_csom/labels of every prefix that `folder` may belong to: PREFIX/bin, PREFIX/lib and
 /// Debian's PREFIX/lib/TRIPLET.
 std::vector<fs::path> shareFolders(fs::path folder) {
@@ -96,7 +94,7 @@ LabelSet LabelSet::withUnlabelledClass() const {
   if (unlabelledClass() != kFreeClass) return *this;
   if (numberOfClasses() >= kMaxClasses)
     throw ConfigError("label set '" + name_ + "' has " + std::to_string(numberOfClasses()) +
-                      " classes, so there is no room for one more, '" + kUnlabelled + "'");
+                      " classes, so there is no room for one more, '" + kUnlabelledClass + "'");
   LabelSet extended = *this;
   Color gray{150, 150, 150};
   const auto taken = [&] {
@@ -108,12 +106,12 @@ LabelSet LabelSet::withUnlabelledClass() const {
   if (raw_.empty()) {  // raw ids were class ids: they are so still, but the new one has none
     for (const LabelClass& c : classes_) extended.raw_[c.id] = {RawKind::Class, c.id};
   }
-  extended.classes_.push_back({id, kUnlabelled, gray});
+  extended.classes_.push_back({id, kUnlabelledClass, gray});
   return extended;
 }
 
 ClassId LabelSet::unlabelledClass() const {
-  return classByName(kUnlabelled).value_or(kFreeClass);
+  return classByName(kUnlabelledClass).value_or(kFreeClass);
 }
 
 }  // namespace csom

@@ -146,6 +146,7 @@ StatedContent statedContent(const std::string& file) {
   StatedContent stated;
   tryToRead([&] {
     const Database database(file, file, Database::Mode::ReadOnly);
+    detail::checkFormat(database);  // nothing is asked of a schema that may be a query of its own
     tryToRead([&] {
       const detail::Texts meta = detail::readTexts(database, "meta");
       if (const auto digest = meta.find(detail::kDigestKey); digest != meta.end())
@@ -249,18 +250,59 @@ void noteLostScans(const FoundRows& found, MapRepair& repair) {
   }
 }
 
-/// The file with what is still in the write-ahead log beside it, as a file of its own; nothing if
-/// there is no such log.
-std::optional<std::string> withoutLog(const std::string& file, const TemporaryFolder& folder) {
-  std::error_code error;
-  const auto log_size = std::filesystem::file_size(file + "-wal", error);
-  if (error || log_size == 0) return std::nullopt;
-  const std::string copy = folder.file("map.csom");
+/// A file with what is still in the write-ahead log beside it, as a file of its own.
+struct WithoutLog {
+  std::optional<std::string> copy;  ///< nothing: there is no log
+  std::string lost;                 ///< why the log could not be read; empty: it was, or there is none
+};
+
+/// One state of a file that somebody may be writing to. Throws FileError.
+void copyDatabase(const std::string& file, const std::string& copy) {
   const Database source(file, file, Database::Mode::ReadOnly);
   Database target(copy, file, Database::Mode::ReadWrite);
   target.copyFrom(source);
   target.close();
-  return copy;
+}
+
+/// The same where SQLite cannot read the log in its place, as it wants to write a third file beside
+/// it. Throws FileError if the two cannot even be copied, std::runtime_error if the copy is damaged.
+void copyFiles(const std::string& file, const std::string& copy) {
+  for (const char* ending : {"", "-wal"}) {
+    std::error_code error;
+    std::filesystem::copy_file(file + ending, copy + ending,
+                               std::filesystem::copy_options::overwrite_existing, error);
+    if (error)
+      throw FileError(file + ending, "cannot be copied to " +
+                                         std::filesystem::path(copy).parent_path().string() + " (" +
+                                         error.message() +
+                                         "): it holds what was committed last. Set TMPDIR to a "
+                                         "folder with room for it, or make it readable");
+  }
+}
+
+/// Throws FileError if there is a log that cannot be got at: what it holds is not lost yet.
+WithoutLog withoutLog(const std::string& file, const TemporaryFolder& folder) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file + "-wal", error);
+  if (status.type() == std::filesystem::file_type::not_found) return {};
+  if (std::filesystem::file_size(file + "-wal", error) == 0 && !error) return {};
+  const std::string copy = folder.file("map.csom");
+  try {
+    copyDatabase(file, copy);
+    return {copy, ""};
+  } catch (const std::runtime_error&) {
+    for (const char* ending : {"", "-wal", "-shm", "-journal"})
+      std::filesystem::remove(copy + ending, error);
+  }
+  copyFiles(file, copy);
+  try {
+    Database database(copy, file, Database::Mode::ReadWrite);
+    database.execute("PRAGMA wal_checkpoint(TRUNCATE)");
+    database.close();
+    return {copy, ""};
+  } catch (const std::runtime_error& damage) {
+    return {std::nullopt, damage.what()};
+  }
 }
 
 MapRepair recoverFrom(const std::string& file, const std::string& shown_name) {
@@ -303,9 +345,14 @@ MapRepair recoverFrom(const std::string& file, const std::string& shown_name) {
 MapRepair recoverMap(const std::string& file) {
   detail::requireRegularFile(file);
   const TemporaryFolder folder;
-  std::optional<std::string> copy;
-  tryToRead([&] { copy = withoutLog(file, folder); });
-  return recoverFrom(copy.value_or(file), file);
+  const WithoutLog source = withoutLog(file, folder);
+  MapRepair repair = recoverFrom(source.copy.value_or(file), file);
+  if (!source.lost.empty()) {
+    repair.lost_chunks = true;
+    repair.losses.push_back("what was committed last is lost, as the log beside the file (-wal) "
+                            "cannot be read: " + source.lost);
+  }
+  return repair;
 }
 
 }  // namespace csom

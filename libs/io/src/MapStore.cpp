@@ -4,6 +4,7 @@
 #include <csom/io/InputFile.h>
 #include <csom/io/MapStore.h>
 #include <csom/io/OutputFile.h>
+#include <csom/io/TextParser.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -56,12 +57,13 @@ void requireUnfinished(const Database& database, const detail::Texts& meta) {
 /// Removes a file when it goes, if it is still there.
 class Leftover {
  public:
-  explicit Leftover(std::string path) : path_(std::move(path)) {}
+  explicit Leftover(const std::string& path) : temporary_(path), path_(path) {}
   ~Leftover() { ::unlink(path_.c_str()); }
   Leftover(const Leftover&) = delete;
   Leftover& operator=(const Leftover&) = delete;
 
  private:
+  TemporaryPath temporary_;
   std::string path_;
 };
 
@@ -120,6 +122,14 @@ class MapStore::Content {
     labels_ = detail::labelsOf(yaml_, options_.number_of_classes, file);
     state_ = readStateOf(database_);
     readSums();
+  }
+
+  /// Throws FileError if a row of the file is not where its index has it: two chunks of one place
+  /// would be added up.
+  void requireSoundTrees() const {
+    detail::Statement check(database_, "PRAGMA integrity_check(1)");
+    if (check.step() && check.text(0) != "ok")
+      throw FileError(file(), detail::printable(check.text(0)) + detail::kDamaged);
   }
 
   void commit(const Chunks& chunks, Voxels voxels, const std::vector<ScanRecord>& scans,
@@ -269,7 +279,9 @@ std::unique_ptr<MapStore> MapStore::create(const std::string& file, const MapDoc
 std::unique_ptr<MapStore> MapStore::open(const std::string& file) {
   detail::requireRegularFile(file);
   auto lock = std::make_unique<detail::FileLock>(file, file);
-  return std::unique_ptr<MapStore>(new MapStore(std::make_unique<Content>(file, std::move(lock))));
+  auto content = std::make_unique<Content>(file, std::move(lock));
+  content->requireSoundTrees();
+  return std::unique_ptr<MapStore>(new MapStore(std::move(content)));
 }
 
 void MapStore::commit(const Chunks& chunks, Voxels voxels, const std::vector<ScanRecord>& scans,

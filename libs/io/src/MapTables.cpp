@@ -3,7 +3,9 @@
 #include "MapTables.h"
 
 #include <csom/core/Error.h>
+#include <csom/io/TextParser.h>
 
+#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -16,17 +18,30 @@ std::int64_t readPragma(const Database& database, const std::string& name) {
   return pragma.step() ? pragma.integer(0) : 0;
 }
 
-/// A view or a virtual table could be a query that never ends.
+/// A schema can do more than hold rows: views and generated columns are queries that may never end,
+/// triggers change what they are not asked to. It must be the one that we write.
 void checkTables(const Database& database, std::int64_t version) {
-  std::vector<const char*> tables{"meta", "options", "labels", "scans", "chunks"};
-  if (version >= 2) tables.insert(tables.end(), {"description", "totals", "resume"});
-  for (const char* table : tables) {
-    Statement select(
-        database, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND rootpage > 0 AND name = ?");
-    select.bind(1, std::string_view(table));
-    if (!select.step())
-      throw FileError(database.shownName(), std::string("has no table ") + table + kDamaged);
+  const std::string& file = database.shownName();
+  std::map<std::string, std::string> missing = tablesOf(version);
+  Statement objects(database, "SELECT type, name, tbl_name, rootpage, coalesce(sql, '') FROM "
+                              "sqlite_master");
+  while (objects.step()) {
+    const std::string type = objects.text(0);
+    const std::string name = objects.text(1);
+    const bool is_key_of_chunks =
+        type == "index" && name == "sqlite_autoindex_chunks_1" && objects.text(2) == "chunks";
+    if (is_key_of_chunks && objects.text(4).empty()) continue;
+    const auto table = missing.find(name);
+    if (table == missing.end())
+      throw FileError(file, "has a " + printable(type) + " " + quoted(name) +
+                                ", which is no part of a map; its tables are not those that csom "
+                                "writes" + kDamaged);
+    if (type != "table" || objects.integer(3) <= 0 || objects.text(4) != table->second)
+      throw FileError(file, "its table " + name + " is not made as csom makes it" + kDamaged);
+    missing.erase(table);
   }
+  if (!missing.empty())
+    throw FileError(file, "has no table " + missing.begin()->first + kDamaged);
 }
 
 void bindValue(Statement& statement, int parameter, double value) {
@@ -93,7 +108,10 @@ std::string readLabels(const Database& database) {
   Statement select(database, "SELECT yaml FROM labels");
   if (!select.step())
     throw FileError(database.shownName(), std::string("table labels is empty") + kDamaged);
-  return select.text(0);
+  std::string yaml = select.text(0);
+  if (select.step())
+    throw FileError(database.shownName(), std::string("table labels has two rows") + kDamaged);
+  return yaml;
 }
 
 Options optionsOf(const Texts& texts, const std::string& shown_name) {

@@ -15,10 +15,11 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Creates a new file NAME.tmpN beside `target` with the permissions that umask gives.
-std::string createBeside(const fs::path& target) {
+std::string createBeside(const fs::path& target, std::unique_ptr<TemporaryPath>& temporary) {
   for (int attempt = 0;; ++attempt) {
     std::string path =
         target.string() + ".tmp" + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+    temporary = std::make_unique<TemporaryPath>(path);
     const int descriptor = ::open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor >= 0) {
       ::close(descriptor);
@@ -49,7 +50,7 @@ OutputFile::OutputFile(const std::string& target) : target_(target) {
   const auto status = fs::status(target_, error);
   if (fs::is_directory(status)) throw FileError(target, "is a folder; name a file in it");
   const bool direct = fs::exists(status) && !fs::is_regular_file(status);
-  path_ = direct ? target_ : createBeside(target_);
+  path_ = direct ? target_ : createBeside(target_, temporary_);
 }
 
 OutputFile::~OutputFile() {
@@ -87,6 +88,7 @@ void OutputFile::commit() {
     syncToDisk(fs::path(target_).parent_path().string(), O_RDONLY | O_DIRECTORY);
   }
   committed_ = true;
+  temporary_.reset();
 }
 
 }  // namespace csom

@@ -4,8 +4,11 @@
 #include <csom/core/Error.h>
 #include <csom/io/TextParser.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace csom::detail {
 
@@ -15,9 +18,22 @@ namespace {
 constexpr std::size_t kMaxFields = 1000;
 constexpr std::size_t kMaxCount = 1000000;
 
+/// Some editors write it in front of a text.
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
+bool equalInAnyCase(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
+    return std::tolower(x) == std::tolower(y);
+  });
+}
+
 class HeaderReader {
  public:
-  HeaderReader(std::string_view bytes, const std::string& file) : file_(file), lines_(bytes) {}
+  HeaderReader(std::string_view bytes, const std::string& file)
+      : file_(file),
+        skipped_(bytes.substr(0, kByteOrderMark.size()) == kByteOrderMark ? kByteOrderMark.size()
+                                                                          : 0),
+        lines_(bytes.substr(skipped_)) {}
 
   PcdHeader read() {
     while (!done_) {
@@ -26,6 +42,8 @@ class HeaderReader {
       splitColumns(line, words_);
       if (words_.empty() || words_.front().front() == '#') continue;
       key_ = words_.front();
+      std::transform(key_.begin(), key_.end(), key_.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
       words_.erase(words_.begin());
       readEntry();
     }
@@ -40,14 +58,17 @@ class HeaderReader {
 
   void readEntry() {
     if (key_ == "VERSION") {
-      if (words_.size() != 1 || (words_[0] != "0.7" && words_[0] != ".7"))
-        fail("PCD version " + (words_.empty() ? "''" : quoted(words_[0])) + "; only 0.7 is read");
-    } else if (key_ == "FIELDS") {
+      double version = 0;
+      // Older ones lack entries of the header that then have their defaults.
+      if (words_.size() != 1 || !parseNumber(words_[0], version) || !(version > 0) || version > 0.7)
+        fail("PCD version " + (words_.empty() ? "''" : quoted(words_[0])) +
+             "; versions up to 0.7 are read");
+    } else if (key_ == "FIELDS" || key_ == "COLUMNS") {
       readFields();
     } else if (key_ == "SIZE") {
       forEachField([&](PcdField& field, std::size_t value) {
         if (value != 1 && value != 2 && value != 4 && value != 8)
-          fail("SIZE of field '" + field.name + "' is " + std::to_string(value) +
+          fail("SIZE of field " + quoted(field.name) + " is " + std::to_string(value) +
                ", must be 1, 2, 4 or 8");
         field.size = value;
       });
@@ -55,9 +76,9 @@ class HeaderReader {
       readTypes();
     } else if (key_ == "COUNT") {
       forEachField([&](PcdField& field, std::size_t value) {
-        if (value < 1 || value > kMaxCount)
-          fail("COUNT of field '" + field.name + "' is " + std::to_string(value) +
-               ", must be 1 to " + std::to_string(kMaxCount));
+        if (value > kMaxCount)
+          fail("COUNT of field " + quoted(field.name) + " is " + std::to_string(value) +
+               ", must be " + std::to_string(kMaxCount) + " at most");
         field.count = value;
       });
     } else if (key_ == "WIDTH") {
@@ -81,6 +102,8 @@ class HeaderReader {
     for (const std::string_view name : words_) {
       PcdField field;
       field.name = name;
+      if (!field.isPadding() && !names_.insert(field.name).second)
+        fail("two FIELDS are called " + quoted(name) + "; which one counts?");
       header_.fields.push_back(field);
     }
   }
@@ -132,13 +155,15 @@ class HeaderReader {
 
   void readData() {
     const std::string_view kind = words_.size() == 1 ? words_[0] : "";
-    if (kind == "binary_compressed")
-      fail(
-          "DATA binary_compressed is not read; convert the file to binary, e.g. with "
-          "pcl_convert_pcd_ascii_binary IN OUT 1");
-    if (kind != "ascii" && kind != "binary") fail("DATA must be ascii or binary");
-    header_.binary = kind == "binary";
-    header_.data_begin = lines_.position();
+    if (equalInAnyCase(kind, "ascii"))
+      header_.data = PcdHeader::Data::Ascii;
+    else if (equalInAnyCase(kind, "binary"))
+      header_.data = PcdHeader::Data::Binary;
+    else if (equalInAnyCase(kind, "binary_compressed"))
+      header_.data = PcdHeader::Data::Compressed;
+    else
+      fail("DATA must be ascii, binary or binary_compressed");
+    header_.data_begin = skipped_ + lines_.position();
     header_.lines = lines_.lineNumber();
     done_ = true;
   }
@@ -148,7 +173,7 @@ class HeaderReader {
     if (header_.fields.empty()) fail("the header has no FIELDS");
     for (PcdField& field : header_.fields) {
       if (field.type == 'F' && field.size < 4)
-        fail("field '" + field.name + "' is of TYPE F and SIZE " + std::to_string(field.size) +
+        fail("field " + quoted(field.name) + " is of TYPE F and SIZE " + std::to_string(field.size) +
              ", must be 4 or 8");
       field.column = header_.columns;
       field.offset = header_.point_bytes;
@@ -157,7 +182,8 @@ class HeaderReader {
     }
     for (const char* name : {"x", "y", "z"})
       if (header_.find(name) == nullptr) fail(std::string("FIELDS lacks '") + name + "'");
-    if (!points_ && (!width_ || !height_)) fail("the header has neither POINTS nor WIDTH, HEIGHT");
+    if (!points_ && !width_) fail("the header has neither POINTS nor WIDTH");
+    if (!points_ && !height_) points_ = width_;  // not in rows
     if (width_ && height_) {
       if (*height_ != 0 && *width_ > std::numeric_limits<std::size_t>::max() / *height_)
         fail("WIDTH times HEIGHT is impossibly large");
@@ -170,8 +196,10 @@ class HeaderReader {
   }
 
   std::string file_;
+  std::size_t skipped_;  ///< bytes before the first line
   LineReader lines_;
-  std::string_view key_;
+  std::string key_;  ///< in capitals
+  std::set<std::string> names_;
   std::vector<std::string_view> words_;
   std::optional<std::size_t> width_;
   std::optional<std::size_t> height_;
@@ -183,9 +211,13 @@ class HeaderReader {
 }  // namespace
 
 const PcdField* PcdHeader::find(std::string_view name) const {
-  for (const PcdField& field : fields)
-    if (field.name == name && field.count == 1) return &field;
-  return nullptr;
+  const PcdField* similar = nullptr;
+  for (const PcdField& field : fields) {
+    if (field.count != 1) continue;
+    if (field.name == name) return &field;
+    if (similar == nullptr && equalInAnyCase(field.name, name)) similar = &field;
+  }
+  return similar;
 }
 
 PcdHeader readPcdHeader(std::string_view bytes, const std::string& file) {

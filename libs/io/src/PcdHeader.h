@@ -16,7 +16,11 @@ struct PcdField {
   std::string name;
   char type = 'F';         ///< 'F', 'U' or 'I'
   std::size_t size = 4;    ///< bytes of one value
-  std::size_t count = 1;   ///< values a point
+  std::size_t count = 1;   ///< values a point; 0: the field is named, but holds nothing
+
+  /// Padding, which is left out of compressed data.
+  bool isPadding() const { return name == "_"; }
+
   std::size_t column = 0;  ///< of the first value, ascii
   std::size_t offset = 0;  ///< of the first value in a point, binary
 };
@@ -26,13 +30,15 @@ struct PcdHeader {
   std::size_t columns = 0;      ///< values a point
   std::size_t point_bytes = 0;  ///< binary
   std::size_t points = 0;       ///< as the header says; not yet held against the data
-  bool binary = false;
+  enum class Data { Ascii, Binary, Compressed };
+  Data data = Data::Ascii;
   std::size_t lines = 0;       ///< of the header
   std::size_t data_begin = 0;  ///< byte position behind the header
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
   Eigen::Quaterniond viewpoint_rotation = Eigen::Quaterniond::Identity();
 
-  /// The field of that name with one value a point; nothing if there is none.
+  /// The field of that name, or else in whatever case, with one value a point; null if there is
+  /// none.
   const PcdField* find(std::string_view name) const;
 };
 

@@ -3,6 +3,7 @@
 #include <csom/io/InputFile.h>
 #include <csom/io/PcdReader.h>
 #include <csom/io/TextParser.h>
+#include <lzf.h>
 
 #include <cmath>
 #include <cstring>
@@ -59,20 +60,17 @@ double binaryValue(const PcdField& field, const char* point) {
 /// Collects the points of one file.
 class CloudBuilder {
  public:
-  CloudBuilder(const PcdHeader& header, PcdCloud& cloud)
+  CloudBuilder(const PcdHeader& header, const std::string& label_field, PcdCloud& cloud)
       : cloud_(cloud),
         xyz_{header.find("x"), header.find("y"), header.find("z")},
-        label_(header.find("label")),
-        intensity_(header.find("intensity")) {
-    cloud_.has_labels = label_ != nullptr;
-    cloud_.has_intensities = intensity_ != nullptr;
+        label_(header.find(label_field)) {
+    if (label_ != nullptr) cloud_.label_field = label_->name;
   }
 
   /// `points` is known to be possible for the size of the file.
   void reserve(std::size_t points) {
     cloud_.points.reserve(points);
     if (label_ != nullptr) cloud_.labels.reserve(points);
-    if (intensity_ != nullptr) cloud_.intensities.reserve(points);
   }
 
   /// `value(field)` is the value of a field of the next point.
@@ -80,10 +78,8 @@ class CloudBuilder {
   void add(Value&& value) {
     const Eigen::Vector3d point(value(*xyz_[0]), value(*xyz_[1]), value(*xyz_[2]));
     const double label = label_ != nullptr ? value(*label_) : 0;
-    const double intensity = intensity_ != nullptr ? value(*intensity_) : 0;
     cloud_.points.push_back(point);
     if (label_ != nullptr) addLabel(label);
-    if (intensity_ != nullptr) cloud_.intensities.push_back(static_cast<float>(intensity));
   }
 
  private:
@@ -96,16 +92,14 @@ class CloudBuilder {
   PcdCloud& cloud_;
   const PcdField* xyz_[3];
   const PcdField* label_;
-  const PcdField* intensity_;
 };
 
 void readBinary(const PcdHeader& header, std::string_view data, const std::string& file,
-                PcdCloud& cloud) {
+                CloudBuilder& builder, PcdCloud& cloud) {
   if (data.size() / header.point_bytes < header.points)
     throw FileError(file, "the header announces " + std::to_string(header.points) + " points of " +
                               std::to_string(header.point_bytes) + " bytes, but only " +
                               std::to_string(data.size()) + " bytes follow; the file is truncated");
-  CloudBuilder builder(header, cloud);
   builder.reserve(header.points);
   for (std::size_t i = 0; i < header.points; ++i) {
     const char* point = data.data() + i * header.point_bytes;
@@ -114,11 +108,85 @@ void readBinary(const PcdHeader& header, std::string_view data, const std::strin
   cloud.trailing_bytes = data.size() - header.points * header.point_bytes;
 }
 
+/// Compressed data: two sizes, then LZF, which holds all values of the first field, then all of the
+/// second … PCL leaves padding out of it, others do not.
+class CompressedReader {
+ public:
+  CompressedReader(const PcdHeader& header, const std::string& file)
+      : header_(header), file_(file) {}
+
+  void read(std::string_view data, CloudBuilder& builder, PcdCloud& cloud) {
+    const std::string values = unpacked(data, cloud);
+    const bool padded = values.size() != header_.points * bytesOfPoint(false);
+    std::size_t begin = 0;
+    for (const PcdField& field : header_.fields) {
+      begin_.push_back(begin);
+      if (padded || !field.isPadding()) begin += field.size * field.count * header_.points;
+    }
+    builder.reserve(header_.points);
+    for (std::size_t i = 0; i < header_.points; ++i)
+      builder.add([&](const PcdField& field) { return valueOf(values, field, i); });
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& reason) const { throw FileError(file_, reason); }
+
+  std::size_t bytesOfPoint(bool with_padding) const {
+    std::size_t bytes = 0;
+    for (const PcdField& field : header_.fields)
+      if (with_padding || !field.isPadding()) bytes += field.size * field.count;
+    return bytes;
+  }
+
+  std::string unpacked(std::string_view data, PcdCloud& cloud) const {
+    constexpr std::size_t kSizes = 2 * sizeof(std::uint32_t);
+    // Of LZF: three bytes stand for 264 at the most.
+    constexpr std::size_t kMostExpansion = 88;
+    if (data.size() < kSizes) fail("compressed data without its two sizes; the file is truncated");
+    const auto packed = static_cast<std::size_t>(numberAt<std::uint32_t>(data.data()));
+    const auto size =
+        static_cast<std::size_t>(numberAt<std::uint32_t>(data.data() + sizeof(std::uint32_t)));
+    if (packed > data.size() - kSizes)
+      fail("announces " + std::to_string(packed) + " bytes of compressed data, but only " +
+           std::to_string(data.size() - kSizes) + " follow; the file is truncated");
+    const bool fits = isOf(size, bytesOfPoint(false)) || isOf(size, bytesOfPoint(true));
+    if (!fits || size / kMostExpansion > packed)
+      fail(std::to_string(packed) + " bytes of compressed data that are to become " +
+           std::to_string(size) + " cannot be " + std::to_string(header_.points) + " points of " +
+           std::to_string(bytesOfPoint(false)) + " bytes");
+    cloud.trailing_bytes = data.size() - kSizes - packed;
+    std::string values(size, '\0');
+    if (size == 0) return values;
+    const unsigned int written =
+        lzf_decompress(data.data() + kSizes, static_cast<unsigned int>(packed), values.data(),
+                       static_cast<unsigned int>(size));
+    if (written != size) fail("its compressed data is damaged");
+    return values;
+  }
+
+  /// Whether `size` is that of all points.
+  bool isOf(std::size_t size, std::size_t point_bytes) const {
+    if (header_.points == 0) return size == 0;
+    return size % header_.points == 0 && size / header_.points == point_bytes;
+  }
+
+  double valueOf(const std::string& values, const PcdField& field, std::size_t point) const {
+    PcdField at_begin = field;
+    at_begin.offset = 0;
+    const auto number = static_cast<std::size_t>(&field - header_.fields.data());
+    return binaryValue(at_begin, values.data() + begin_[number] + point * field.size);
+  }
+
+  const PcdHeader& header_;
+  const std::string& file_;
+  std::vector<std::size_t> begin_;  ///< of the values of each field
+};
+
 class AsciiReader {
  public:
   AsciiReader(const PcdHeader& header, const std::string& file, PcdRowPolicy policy,
-              PcdCloud& cloud)
-      : header_(header), file_(file), policy_(policy), cloud_(cloud), builder_(header, cloud) {}
+              CloudBuilder& builder, PcdCloud& cloud)
+      : header_(header), file_(file), policy_(policy), builder_(builder), cloud_(cloud) {}
 
   void read(std::string_view data) {
     // A value and its separator are two bytes at least; the last separator may be missing.
@@ -167,7 +235,7 @@ class AsciiReader {
   double value(const PcdField& field) const {
     double number = 0;
     if (!detail::parseNumber(columns_[field.column], number))
-      fail("field '" + field.name + "' is " + detail::quoted(columns_[field.column]) +
+      fail("field " + detail::quoted(field.name) + " is " + detail::quoted(columns_[field.column]) +
            ", expected a number");
     return number;
   }
@@ -175,25 +243,35 @@ class AsciiReader {
   const PcdHeader& header_;
   const std::string& file_;
   PcdRowPolicy policy_;
+  CloudBuilder& builder_;
   PcdCloud& cloud_;
-  CloudBuilder builder_;
   std::vector<std::string_view> columns_;
   std::size_t line_number_ = 0;
 };
 
 }  // namespace
 
-PcdCloud readPcd(const std::string& file, PcdRowPolicy policy) {
+PcdCloud readPcd(const std::string& file, PcdRowPolicy policy, const std::string& label_field) {
   const std::string bytes = detail::readFile(file);
   const PcdHeader header = detail::readPcdHeader(bytes, file);
   const std::string_view data = std::string_view(bytes).substr(header.data_begin);
   PcdCloud cloud;
   cloud.viewpoint = header.viewpoint;
   cloud.viewpoint_rotation = header.viewpoint_rotation;
-  if (header.binary)
-    readBinary(header, data, file, cloud);
-  else
-    AsciiReader(header, file, policy, cloud).read(data);
+  for (const PcdField& field : header.fields)
+    if (!field.isPadding()) cloud.fields.push_back(field.name);
+  CloudBuilder builder(header, label_field, cloud);
+  switch (header.data) {
+    case PcdHeader::Data::Ascii:
+      AsciiReader(header, file, policy, builder, cloud).read(data);
+      break;
+    case PcdHeader::Data::Binary:
+      readBinary(header, data, file, builder, cloud);
+      break;
+    case PcdHeader::Data::Compressed:
+      CompressedReader(header, file).read(data, builder, cloud);
+      break;
+  }
   return cloud;
 }
 

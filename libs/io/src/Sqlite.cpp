@@ -3,7 +3,10 @@
 
 #include <csom/core/Error.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 
 #include "MapSchema.h"
@@ -12,21 +15,50 @@
 namespace csom::detail {
 
 namespace {
+
+namespace fs = std::filesystem;
+
 constexpr int kBusyMilliseconds = 10000;
+
+/// The path as nothing but a path: SQLite takes `file:NAME` for a URI and `:memory:` for no file.
+std::string plainPath(const std::string& path) {
+  return fs::absolute(path).string();
 }
+
+/// Nothing that a file holds can be longer than the file and its log; what claims to be is made up
+/// by the file's own schema.
+void limitLengths(sqlite3* handle, const std::string& path) {
+  constexpr std::uintmax_t kAtLeast = 1U << 20U;
+  constexpr std::uintmax_t kAtMost = 1000000000;  // SQLite's own limit
+  std::uintmax_t size = 0;
+  for (const char* ending : {"", "-wal"}) {
+    std::error_code error;
+    const std::uintmax_t bytes = fs::file_size(path + ending, error);
+    if (!error) size += bytes;
+  }
+  sqlite3_limit(handle, SQLITE_LIMIT_LENGTH,
+                static_cast<int>(std::clamp(size, kAtLeast, kAtMost)));
+}
+
+}  // namespace
 
 Database::Database(const std::string& path, const std::string& shown_name, Mode mode)
     : shown_name_(shown_name) {
   const int flags =
       mode == Mode::ReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
-  const int result = sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr);
+  const std::string plain = plainPath(path);
+  const int result = sqlite3_open_v2(plain.c_str(), &handle_, flags, nullptr);
   if (result != SQLITE_OK) {
     const std::string reason = sqlite3_errstr(result);
     sqlite3_close(handle_);
     throw FileError(shown_name_, "cannot be opened: " + reason);
   }
-  // A map file is data: nothing in its schema may run code.
-  sqlite3_db_config(handle_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  // A map file is data: nothing in its schema may run.
+  for (const int setting : {SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_TRIGGER,
+                            SQLITE_DBCONFIG_ENABLE_VIEW, SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION})
+    sqlite3_db_config(handle_, setting, 0, nullptr);
+  sqlite3_db_config(handle_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  if (mode == Mode::ReadOnly) limitLengths(handle_, plain);
   // Whoever writes to the file holds it for a moment only.
   sqlite3_busy_timeout(handle_, kBusyMilliseconds);
 }
@@ -73,6 +105,13 @@ void Database::fail(const std::string& what) const {
       throw FileError(shown_name_, std::string("cannot be read or written: ") +
                                        (reason != 0 ? std::strerror(reason) : "disk I/O error"));
     }
+    case SQLITE_CANTOPEN:
+      throw FileError(shown_name_,
+                      "cannot be opened; if it has a log beside it (-wal) and lies where nothing can "
+                      "be written, copy both to another folder");
+    case SQLITE_TOOBIG:
+      throw FileError(shown_name_,
+                      std::string("has a value that is longer than the file") + kDamaged);
     default:
       throw FileError(shown_name_, std::string(sqlite3_errmsg(handle_)) + " (at: " + what + ")");
   }

@@ -3,6 +3,7 @@
 #include <csom/io/TextParser.h>
 
 #include <algorithm>
+#include <cstdint>
 
 namespace csom::detail {
 
@@ -26,25 +27,63 @@ void splitColumns(std::string_view line, std::vector<std::string_view>& columns)
   }
 }
 
+namespace {
+
+/// Length of the UTF-8 character that begins a text, and its number; length 0 if there is none.
+struct Character {
+  std::size_t length = 0;
+  std::uint32_t code = 0;
+};
+
+Character firstCharacter(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(0);
+  if (lead < 0x80) return {1, lead};
+  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return {};
+  std::uint32_t code = lead & (0x7fU >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0U) != 0x80) return {};
+    code = code << 6U | (byte(i) & 0x3fU);
+  }
+  constexpr std::uint32_t kShortest[] = {0, 0, 0x80, 0x800, 0x10000};
+  const bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
+  if (code < kShortest[length] || code > 0x10ffff || is_surrogate) return {};
+  return {length, code};
+}
+
+/// Characters that steer a terminal, or turn round or hide the text around them.
+bool isShown(std::uint32_t code) {
+  const auto within = [code](std::uint32_t first, std::uint32_t last) {
+    return first <= code && code <= last;
+  };
+  return !(code < 0x20 || within(0x7f, 0x9f) || code == 0x61c || within(0x200b, 0x200f) ||
+           within(0x2028, 0x202e) || within(0x2060, 0x206f) || code == 0xfeff ||
+           within(0xfff9, 0xfffb) || within(0xe0000, 0xe007f));
+}
+
+}  // namespace
+
 std::string printable(std::string_view text) {
   std::string result;
-  bool after_c2 = false;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    // U+0080 to U+009F, which UTF-8 writes with a leading C2, steer terminals as well.
-    const bool second_half_of_control = after_c2 && byte >= 0x80 && byte < 0xa0;
-    if (second_half_of_control)
-      result.back() = '?';
+  while (!text.empty()) {
+    const Character character = firstCharacter(text);
+    const std::size_t length = std::max<std::size_t>(character.length, 1);
+    if (character.length > 0 && isShown(character.code))
+      result += text.substr(0, length);
     else
-      result += byte < 0x20 || byte == 0x7f ? '?' : c;
-    after_c2 = byte == 0xc2;
+      result += '?';
+    text.remove_prefix(length);
   }
   return result;
 }
 
 std::string quoted(std::string_view text) {
-  constexpr std::size_t max_length = 60;
-  return "'" + printable(text.substr(0, max_length)) + (text.size() > max_length ? "…'" : "'");
+  std::size_t length = 60;
+  if (text.size() <= length) return "'" + printable(text) + "'";
+  // Not in the middle of a character.
+  while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0U) == 0x80) --length;
+  return "'" + printable(text.substr(0, length)) + "…'";
 }
 
 std::string joined(const std::vector<std::string>& words) {

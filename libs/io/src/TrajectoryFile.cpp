@@ -15,29 +15,35 @@ namespace csom {
 
 namespace {
 
-/// The lines of a file that hold exactly N finite numbers each; comments and blank lines are left
-/// out.
+/// The lines of a file that hold exactly N finite numbers each, one after the other.
 template <std::size_t N>
 class NumberLines {
  public:
   NumberLines(const std::string& file, const char* layout)
       : file_(file), layout_(layout), text_(detail::readFile(file)), lines_(text_) {}
 
-  bool next(std::array<double, N>& numbers) {
-    for (std::string_view line; lines_.next(line);) {
-      detail::splitColumns(line, columns_);
-      if (columns_.empty() || columns_.front().front() == '#') continue;
-      if (columns_.size() != N)
-        fail(std::to_string(columns_.size()) + " columns, expected the " + std::to_string(N) +
-             " numbers " + layout_);
-      for (std::size_t i = 0; i < N; ++i) {
-        if (!detail::parseNumber(columns_[i], numbers[i]) || !std::isfinite(numbers[i]))
-          fail("column " + std::to_string(i + 1) + " is " + detail::quoted(columns_[i]) +
-               ", expected a finite number");
-      }
-      return true;
+  /// The next line, blank or not; false at the end.
+  bool nextLine() {
+    std::string_view line;
+    if (!lines_.next(line)) return false;
+    detail::splitColumns(line, columns_);
+    return true;
+  }
+  bool isBlank() const { return columns_.empty(); }
+  bool isComment() const { return !isBlank() && columns_.front().front() == '#'; }
+
+  /// Of the line at hand.
+  std::array<double, N> numbers() const {
+    std::array<double, N> numbers{};
+    if (columns_.size() != N)
+      fail(std::to_string(columns_.size()) + " columns, expected the " + std::to_string(N) +
+           " numbers " + layout_);
+    for (std::size_t i = 0; i < N; ++i) {
+      if (!detail::parseNumber(columns_[i], numbers[i]) || !std::isfinite(numbers[i]))
+        fail("column " + std::to_string(i + 1) + " is " + detail::quoted(columns_[i]) +
+             ", expected a finite number");
     }
-    return false;
+    return numbers;
   }
 
   [[noreturn]] void fail(const std::string& reason) const {
@@ -57,7 +63,9 @@ class NumberLines {
 std::vector<TimedPose> readTumTrajectory(const std::string& file) {
   NumberLines<8> lines(file, "'timestamp x y z qx qy qz qw'");
   std::vector<TimedPose> trajectory;
-  for (std::array<double, 8> n{}; lines.next(n);) {
+  while (lines.nextLine()) {
+    if (lines.isBlank() || lines.isComment()) continue;
+    const std::array<double, 8> n = lines.numbers();
     const Eigen::Quaterniond rotation(n[7], n[4], n[5], n[6]);
     if (!(std::abs(rotation.norm() - 1) <= 0.01))
       lines.fail("the quaternion has length " + std::to_string(rotation.norm()) +
@@ -91,15 +99,23 @@ void writeTumTrajectory(const std::vector<TimedPose>& trajectory, const std::str
   output.commit();
 }
 
-std::vector<Eigen::Isometry3d> readKittiPoses(const std::string& file) {
+std::vector<std::optional<Eigen::Isometry3d>> readKittiPoses(const std::string& file) {
   NumberLines<12> lines(file, "of a 3x4 matrix");
-  std::vector<Eigen::Isometry3d> poses;
-  for (std::array<double, 12> n{}; lines.next(n);) {
+  std::vector<std::optional<Eigen::Isometry3d>> poses;
+  std::size_t until_last = 0;
+  while (lines.nextLine()) {
+    if (lines.isComment())
+      lines.fail("a comment, but the line of a pose is its frame: remove it");
+    poses.emplace_back();
+    if (lines.isBlank()) continue;
+    const std::array<double, 12> n = lines.numbers();
     const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> matrix(n.data());
     const auto pose = detail::poseFromMatrix(matrix);
     if (!pose) lines.fail("columns 1-3, 5-7 and 9-11 are not a rotation");
-    poses.push_back(*pose);
+    poses.back() = *pose;
+    until_last = poses.size();
   }
+  poses.resize(until_last);
   if (poses.empty()) throw FileError(file, "holds no pose");
   return poses;
 }

@@ -172,6 +172,7 @@ std::vector<std::string> checkApplicationIni(const std::string& file,
     if (is_read && definition.count > 0) used.push_back(definition);
   }
   if (used.empty()) throwNoMap(maps, application);
+  for (const Definition& definition : used) requireGivenOnce(file, definition.section);
   if (application != nullptr) requireSomethingToAlignTo(maps, *application, used);
 
   std::vector<std::string> unread;

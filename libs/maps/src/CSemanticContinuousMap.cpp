@@ -67,8 +67,10 @@ std::map<std::string, std::string> describe(const InsertionStatistics& statistic
   note("points_without_label_dropped",
        statistics.labels.missing + (cameras ? cameras->pointsDropped() : 0));
   note("points_with_unknown_label_dropped", statistics.labels.unknown);
+  note("points_with_unknown_label_kept_unlabelled", statistics.labels.kept_unknown);
   note("points_with_ignored_label_dropped", statistics.labels.ignored);
   note("points_with_several_labels_dropped", statistics.labels.ambiguous);
+  note("beams_without_return", statistics.no_returns);
   note("observations_without_usable_points", statistics.without_points);
   if (!statistics.not_taken.empty()) meta["observations_not_taken"] = listOf(statistics.not_taken);
   if (!statistics.damaged.empty()) meta["observations_damaged"] = listOf(statistics.damaged);
@@ -115,6 +117,8 @@ CSemanticContinuousMap& CSemanticContinuousMap::operator=(const CSemanticContinu
   last_insertion_ = other.last_insertion_;
   meta_ = other.meta_;
   adapter_ = other.adapter_ ? other.adapter_->clone() : nullptr;
+  // Who observes this map goes on to do so; who observes the other one has nothing to do with it.
+  setLabelledScanObserver(labelled_scan_observer_);
   observed_points_.invalidate();
   invalidateCaches();
   return *this;
@@ -225,32 +229,43 @@ bool CSemanticContinuousMap::internal_insertObservation(
     const std::optional<const mrpt::poses::CPose3D>& robot_pose) {
   const LabelRules rules = labelRules();
   last_insertion_ = {};
-  std::optional<std::vector<AdaptedScan>> adapted;
+  bool used = false;
+  bool kept = false;
   try {
     const Eigen::Isometry3d pose = roundedPose(robot_pose.value_or(mrpt::poses::CPose3D()));
-    adapted = adapter().adapt(observation, pose, rules);
+    const auto adapted = adapter().adapt(observation, pose, rules);
+    if (!adapted) {
+      last_insertion_.outcome = LastInsertion::Outcome::NotTaken;
+      ++statistics_.not_taken[observationName(observation)];
+      return false;
+    }
+    kept = adapted->empty();
+    used = insertScans(*adapted);
   } catch (const std::bad_alloc&) {
     throw;  // that is not the observation's fault
   } catch (const std::exception& error) {
-    if (adapter_) insertScans(adapter_->takeFinished());
     // An application must not stop because of one damaged observation.
-    last_insertion_.outcome = LastInsertion::Outcome::Damaged;
-    last_insertion_.reason = detail::messageOf(error);
-    noteDamaged(observation, last_insertion_.reason);
+    noteDamaged(observation, detail::messageOf(error));
+    if (adapter_) insertFinished(observation);
     return false;
   }
-  if (!adapted) {
-    last_insertion_.outcome = LastInsertion::Outcome::NotTaken;
-    ++statistics_.not_taken[observationName(observation)];
-    return false;
-  }
-  const bool used = insertScans(*adapted);
-  if (adapted->empty())
+  if (kept)
     last_insertion_.outcome = LastInsertion::Outcome::Kept;
   else
     last_insertion_.outcome =
         used ? LastInsertion::Outcome::Inserted : LastInsertion::Outcome::NoPoints;
-  return used || adapted->empty();
+  return used || kept;
+}
+
+/// The scans that were complete before the adapter threw because of `observation`.
+void CSemanticContinuousMap::insertFinished(const mrpt::obs::CObservation& observation) {
+  try {
+    insertScans(adapter_->takeFinished());
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    noteDamaged(observation, detail::messageOf(error));
+  }
 }
 
 ObservationAdapter& CSemanticContinuousMap::adapter() {
@@ -262,6 +277,13 @@ ObservationAdapter& CSemanticContinuousMap::adapter() {
 
 void CSemanticContinuousMap::openLabelSources() {
   if (auto* cameras = dynamic_cast<CameraLabelledAdapter*>(&adapter())) cameras->loadNetworks();
+}
+
+void CSemanticContinuousMap::takeLabelSourcesOf(const CSemanticContinuousMap& other) {
+  labelOptions.label_cache = other.labelOptions.label_cache;
+  auto* const own = dynamic_cast<CameraLabelledAdapter*>(adapter_.get());
+  const auto* const given = dynamic_cast<const CameraLabelledAdapter*>(other.adapter_.get());
+  if (own != nullptr && given != nullptr) own->takeNetworksOf(*given);
 }
 
 void CSemanticContinuousMap::setLabelledScanObserver(LabelledScanObserver observer) {
@@ -288,6 +310,7 @@ bool CSemanticContinuousMap::insertScans(const std::vector<AdaptedScan>& adapted
 
 bool CSemanticContinuousMap::insertScan(const AdaptedScan& adapted) {
   statistics_.labels += adapted.labels;
+  statistics_.no_returns += adapted.no_returns;
   ScanReport report = map_.insert(adapted.scan);
   if (report.points == report.rejectedTotal()) {
     ++statistics_.without_points;
@@ -308,6 +331,8 @@ bool CSemanticContinuousMap::insertScan(const AdaptedScan& adapted) {
 
 void CSemanticContinuousMap::noteDamaged(const mrpt::obs::CObservation& observation,
                                          const std::string& why) {
+  last_insertion_.outcome = LastInsertion::Outcome::Damaged;
+  last_insertion_.reason = why;
   const std::string name = observationName(observation);
   if (statistics_.damaged[name]++ > 0) return;
   statistics_.why_damaged[name] = why;

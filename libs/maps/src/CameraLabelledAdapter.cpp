@@ -18,6 +18,10 @@ void CameraLabelledAdapter::loadNetworks() {
   labelling_->loadNetworks();
 }
 
+void CameraLabelledAdapter::takeNetworksOf(const CameraLabelledAdapter& other) {
+  labelling_->takeNetworksOf(*other.labelling_);
+}
+
 void CameraLabelledAdapter::setObserver(LabelledScanObserver observer) {
   labelling_->observer = std::move(observer);
 }
@@ -50,8 +54,8 @@ void CameraLabelledAdapter::writeTo(ByteWriter& out) const {
   labelling_->writeTo(out);
 }
 
-void CameraLabelledAdapter::readFrom(ByteReader& in) {
-  labelling_->readFrom(in);
+void CameraLabelledAdapter::readFrom(ByteReader& in, std::uint8_t version) {
+  labelling_->readFrom(in, version);
 }
 
 std::unique_ptr<ObservationAdapter> makeAdapter(const LabelOptions& options,

@@ -44,7 +44,7 @@ CameraLabelling::CameraLabelling(const LabelOptions& options, const LabelSet& la
   for (const LabelSource& source : options.sources) {
     if (!source.isCamera()) continue;
     cameras_.push_back({source, labellerOf(source, labels), {}, {}, {}, 0});
-    statistics_.sources.push_back({source.sensor_label, source.kind, 0, 0, 0, 0, 0});
+    statistics_.sources.push_back({source.sensor_label, source.kind, 0, 0, 0, 0, 0, {0, 0, 0}});
   }
 }
 
@@ -52,6 +52,20 @@ void CameraLabelling::loadNetworks() {
   for (Camera& camera : cameras_) {
     if (camera.labeller) camera.labeller->loadNetwork();
   }
+}
+
+void CameraLabelling::takeNetworksOf(const CameraLabelling& other) {
+  const bool same = std::equal(
+      cameras_.begin(), cameras_.end(), other.cameras_.begin(), other.cameras_.end(),
+      [](const Camera& a, const Camera& b) {
+        return a.source.sensor_label == b.source.sensor_label && a.source.kind == b.source.kind &&
+               a.source.network == b.source.network && a.source.model == b.source.model &&
+               a.source.label_image == b.source.label_image;
+      });
+  if (!same) throw std::invalid_argument("the label sources of two maps are not the same");
+  for (std::size_t i = 0; i < cameras_.size(); ++i)
+    cameras_[i].labeller = other.cameras_[i].labeller;
+  options_.label_cache = other.options_.label_cache;
 }
 
 std::shared_ptr<ImageLabeller> CameraLabelling::labellerOf(const LabelSource& source,
@@ -182,6 +196,8 @@ void CameraLabelling::addImage(std::size_t camera, const CameraImage& image, dou
     streamed.photo = to.last_photo.pixels;
   streamed.projection = to.projection;
   streamed.camera_in_map = sensorPoseInMap(robot_pose, image.pose_on_robot);
+  const auto axes = image.pose_on_robot.getRotationMatrix();
+  statistics_.sources[camera].looks_along = {axes(0, 2), axes(1, 2), axes(2, 2)};
   if (to.images.add(std::move(streamed))) return;
   ++statistics_.sources[camera].images_refused;
   throw std::runtime_error(

@@ -34,8 +34,9 @@ class CameraLabelling {
                                                 const LabelRules& rules);
   std::vector<AdaptedScan> flush();
   std::vector<AdaptedScan> takeFinished() { return std::exchange(finished_, {}); }
+  void takeNetworksOf(const CameraLabelling& other);
   void writeTo(ByteWriter& out) const;
-  void readFrom(ByteReader& in);
+  void readFrom(ByteReader& in, std::uint8_t version);
 
   const CameraStatistics& statistics() const { return statistics_; }
   LabelledScanObserver observer;

@@ -111,16 +111,18 @@ void write(ByteWriter& out, const WaitingScan& scan) {
   out.text(scan.sensor_label);
   out.text(scan.observation_class);
   writeVector(out, scan.points.points);
+  out.number(static_cast<std::uint64_t>(scan.points.no_returns));
   write(out, scan.sensor_in_map);
 }
 
-WaitingScan readWaitingScan(ByteReader& in) {
+WaitingScan readWaitingScan(ByteReader& in, std::uint8_t version) {
   WaitingScan scan;
   scan.time = in.number<double>();
   scan.late = in.flag();
   scan.sensor_label = in.text();
   scan.observation_class = in.text();
   scan.points.points = readVector<Eigen::Vector3f>(in);
+  if (version >= 4) scan.points.no_returns = in.number<std::uint64_t>();
   scan.sensor_in_map = readPose(in);
   return scan;
 }
@@ -150,6 +152,8 @@ void visitNumbers(Statistics& s, Visitor&& visit) {
 
 void CameraLabelling::writeTo(ByteWriter& out) const {
   visitNumbers(statistics_, [&](const auto& number) { out.number(number); });
+  for (const auto& source : statistics_.sources)
+    for (const double coordinate : source.looks_along) out.number(coordinate);
   out.number(static_cast<std::uint8_t>(clock_.has_value()));
   out.number(clock_.value_or(0));
   for (const Camera& camera : cameras_) {
@@ -161,9 +165,12 @@ void CameraLabelling::writeTo(ByteWriter& out) const {
   for (const WaitingScan& scan : waiting_) write(out, scan);
 }
 
-void CameraLabelling::readFrom(ByteReader& in) {
+void CameraLabelling::readFrom(ByteReader& in, std::uint8_t version) {
   visitNumbers(statistics_,
                [&](auto& number) { number = in.number<std::decay_t<decltype(number)>>(); });
+  for (auto& source : statistics_.sources)
+    for (double& coordinate : source.looks_along)
+      if (version >= 4) coordinate = in.number<double>();
   const bool has_clock = in.flag();
   const auto clock = in.number<double>();
   clock_ = has_clock ? std::make_optional(clock) : std::nullopt;
@@ -173,7 +180,8 @@ void CameraLabelling::readFrom(ByteReader& in) {
     for (std::size_t left = in.count(1); left > 0; --left) camera.images.add(readStreamedImage(in));
   }
   waiting_.clear();
-  for (std::size_t left = in.count(1); left > 0; --left) waiting_.push_back(readWaitingScan(in));
+  for (std::size_t left = in.count(1); left > 0; --left)
+    waiting_.push_back(readWaitingScan(in, version));
 }
 
 }  // namespace csom

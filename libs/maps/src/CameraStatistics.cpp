@@ -11,4 +11,9 @@ std::size_t CameraStatistics::pointsDropped() const {
   return without_label - kept_unlabelled;
 }
 
+std::size_t CameraStatistics::pointsRejected() const {
+  const bool kept = kept_unlabelled > 0;
+  return pointsDropped() - (kept ? 0 : points[static_cast<std::size_t>(PointFate::OutsideView)]);
+}
+
 }  // namespace csom

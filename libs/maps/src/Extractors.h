@@ -4,9 +4,13 @@
 
 #include <csom/maps/PointExtractor.h>
 
+#include <cstdint>
 #include <memory>
 
 namespace csom {
+
+/// What range images of 16 bits hold where the sensor gave up measuring; 0 where nothing came back.
+constexpr std::uint16_t kSaturatedRange = 0xffff;
 
 /// CObservationVelodyneScan: raw packets if there are any, else the stored cloud; labels in the
 /// intensities.

@@ -17,6 +17,10 @@ namespace csom {
 /// Throws ConfigError if the file is not there, or if MRPT cannot make sense of it ($eval{…}).
 void openIni(const std::string& file, mrpt::config::CConfigFile& ini);
 
+/// Throws ConfigError, with both lines, if a section that is `section` or begins with it and `_` is
+/// given twice in a file, or a key in such a section: MRPT takes the last value, without a word.
+void requireGivenOnce(const std::string& file, const std::string& section);
+
 /// The file behind a configuration; empty if it was read from memory.
 std::string fileOf(const mrpt::config::CConfigFileBase& source);
 

@@ -38,7 +38,9 @@ std::optional<ClassId> defaultUnlabelled(const LabelSet& labels) {
   return std::nullopt;
 }
 
+/// A return is never evidence of free space: a label that means free is one that nobody can use.
 PointLabel found(ClassId id) {
+  if (id == kFreeClass) return {PointLabel::Kind::Unknown};
   return {PointLabel::Kind::Class, id};
 }
 
@@ -69,6 +71,7 @@ void parse(const std::string& key, const std::string& text, PointLabels& value) 
 LabelCounts& LabelCounts::operator+=(const LabelCounts& other) {
   labelled += other.labelled;
   unlabelled += other.unlabelled;
+  kept_unknown += other.kept_unknown;
   missing += other.missing;
   unknown += other.unknown;
   ignored += other.ignored;

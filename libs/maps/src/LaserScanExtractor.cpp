@@ -33,8 +33,11 @@ class LaserScanExtractor : public PointExtractor {
     out.reserve(rays);
     for (std::size_t i = 0; i < rays; ++i) {
       const float range = scan.getScanRange(i);
-      // A ray of maximum range hit nothing.
-      if (!scan.getScanRangeValidity(i) || range >= scan.maxRange) continue;
+      // A ray of maximum range hit nothing, and neither did one of no range, valid or not.
+      if (!scan.getScanRangeValidity(i) || range <= 0 || range >= scan.maxRange) {
+        ++out.no_returns;
+        continue;
+      }
       const double angle = sign * (static_cast<double>(i) * step - 0.5 * scan.aperture);
       out.add({static_cast<float>(range * std::cos(angle)),
                static_cast<float>(range * std::sin(angle)), 0.0f},

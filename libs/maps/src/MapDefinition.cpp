@@ -163,6 +163,8 @@ CSemanticContinuousMap::TMapDefinition::TMapDefinition() = default;
 
 void CSemanticContinuousMap::TMapDefinition::load(const CConfigFileBase& source,
                                                   const std::string& section_prefix) {
+  if (const std::string file = fileOf(source); !file.empty())
+    requireGivenOnce(file, section_prefix);
   DefinitionReader reader(source, section_prefix);
   std::string label_set;
   bool number_of_classes_given = false;
@@ -199,7 +201,10 @@ void CSemanticContinuousMap::TMapDefinition::load(const CConfigFileBase& source,
 
   const std::string place = IniSection(source, section_prefix + "_*").place();
   if (!label_set.empty()) labels = loadLabels(label_set, source, place);
-  if (labelOpts.outside_view == OutsideView::Unlabelled) labels = labels.withUnlabelledClass();
+  if (labelOpts.usesCameras() && labelOpts.outside_view == OutsideView::Unlabelled)
+    labels = labels.withUnlabelledClass();
+  for (const std::string& name : {insertionOpts.unlabelled_class, insertionOpts.scan_2d_class})
+    if (name == kUnlabelledClass) labels = labels.withUnlabelledClass();
   if (number_of_classes_given && options.number_of_classes != labels.numberOfClasses()) {
     throw ConfigError(place + ": number_of_classes = " + toString(options.number_of_classes) +
                       ", but label set '" + labels.name() + "' has " +
@@ -255,6 +260,7 @@ CSemanticContinuousMap::TMapDefinition CSemanticContinuousMap::definitionFromIni
     const std::string& file, const std::string& application_section) {
   mrpt::config::CConfigFile ini;
   openIni(file, ini);
+  requireGivenOnce(file, application_section);
 
   IniSection section(ini, application_section);
   std::int64_t maps = 0;

@@ -16,8 +16,9 @@
 namespace csom {
 namespace {
 
-/// 1: labels from cameras. 2: options of the likelihood by name. 3: those of views by name.
-constexpr std::uint8_t kVersion = 3;
+/// 1: labels from cameras. 2: options of the likelihood by name. 3: those of views by name. 4: beams
+/// without a return, points of unknown labels that were kept.
+constexpr std::uint8_t kVersion = 4;
 
 using Texts = std::map<std::string, std::string>;
 using Counts = std::map<std::string, std::size_t>;
@@ -145,16 +146,18 @@ RenderingOptions readRenderingOptions(ByteReader& in, std::uint8_t version) {
 }
 
 void write(ByteWriter& out, const LabelCounts& counts) {
-  for (const std::size_t count : {counts.labelled, counts.unlabelled, counts.missing,
-                                  counts.unknown, counts.ignored, counts.ambiguous})
+  for (const std::size_t count :
+       {counts.labelled, counts.unlabelled, counts.missing, counts.unknown, counts.ignored,
+        counts.ambiguous, counts.kept_unknown})
     out.number(static_cast<std::uint64_t>(count));
 }
 
-LabelCounts readLabelCounts(ByteReader& in) {
+LabelCounts readLabelCounts(ByteReader& in, std::uint8_t version) {
   LabelCounts counts;
   for (std::size_t* count : {&counts.labelled, &counts.unlabelled, &counts.missing, &counts.unknown,
                              &counts.ignored, &counts.ambiguous})
     *count = in.number<std::uint64_t>();
+  if (version >= 4) counts.kept_unknown = in.number<std::uint64_t>();
   return counts;
 }
 
@@ -177,17 +180,19 @@ void write(ByteWriter& out, const InsertionStatistics& statistics) {
   write(out, statistics.damaged);
   write(out, statistics.why_damaged);
   write(out, statistics.labels);
+  out.number(static_cast<std::uint64_t>(statistics.no_returns));
   write(out, statistics.unused);
 }
 
-InsertionStatistics readStatistics(ByteReader& in) {
+InsertionStatistics readStatistics(ByteReader& in, std::uint8_t version) {
   InsertionStatistics statistics;
   statistics.inserted = in.number<std::uint64_t>();
   statistics.without_points = in.number<std::uint64_t>();
   statistics.not_taken = readCounts(in);
   statistics.damaged = readCounts(in);
   statistics.why_damaged = readTexts(in);
-  statistics.labels = readLabelCounts(in);
+  statistics.labels = readLabelCounts(in, version);
+  if (version >= 4) statistics.no_returns = in.number<std::uint64_t>();
   statistics.unused = readReport(in);
   return statistics;
 }
@@ -331,13 +336,13 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
   LabelRules(labels->set(), insertion.point_labels, insertion.unlabelled_class,
              insertion.scan_2d_class);
   Texts meta = readTexts(block);
-  InsertionStatistics statistics = readStatistics(block);
+  InsertionStatistics statistics = readStatistics(block, version);
   std::vector<ScanRecord> scans = readScans(block);
   readChunks(block, map);
   std::unique_ptr<ObservationAdapter> adapter;
   if (version >= 1 && block.flag()) {
     adapter = makeAdapter(label_options, labels->set());
-    adapter->readFrom(block);
+    adapter->readFrom(block, version);
   }
   if (block.left() > 0) throw std::runtime_error("serialised map: bytes after its end");
 

@@ -31,13 +31,13 @@ void count(LabelCounts& counts, PointLabel::Kind kind) {
 /// The class that a point enters the map with; nothing if it is dropped.
 std::optional<ClassId> classOf(const PointLabel& label, const LabelRules& rules,
                                LabelCounts& counts) {
-  if (label.kind == PointLabel::Kind::Missing && rules.unlabelledClass()) {
-    ++counts.unlabelled;
-    return rules.unlabelledClass();
+  const bool is_class = label.kind == PointLabel::Kind::Class;
+  if (is_class || label.kind == PointLabel::Kind::Ignored || !rules.unlabelledClass()) {
+    count(counts, label.kind);
+    return is_class ? std::make_optional(label.id) : std::nullopt;
   }
-  count(counts, label.kind);
-  if (label.kind != PointLabel::Kind::Class) return std::nullopt;
-  return label.id;
+  ++(label.kind == PointLabel::Kind::Missing ? counts.unlabelled : counts.kept_unknown);
+  return rules.unlabelledClass();
 }
 
 }  // namespace
@@ -53,6 +53,7 @@ AdaptedScan makeScan(const SensorPoints& points, const Eigen::Isometry3d& robot_
   const Eigen::Matrix3d rotation = sensor.linear();
   AdaptedScan out;
   out.scan.origin = sensor.translation();
+  out.no_returns = points.no_returns;
   out.scan.points.reserve(points.points.size());
   out.scan.labels.reserve(points.points.size());
   for (std::size_t i = 0; i < points.points.size(); ++i) {
@@ -85,6 +86,6 @@ std::unique_ptr<ObservationAdapter> SelfLabelledAdapter::clone() const {
 
 void SelfLabelledAdapter::writeTo(ByteWriter& /*out*/) const {}
 
-void SelfLabelledAdapter::readFrom(ByteReader& /*in*/) {}
+void SelfLabelledAdapter::readFrom(ByteReader& /*in*/, std::uint8_t /*version*/) {}
 
 }  // namespace csom

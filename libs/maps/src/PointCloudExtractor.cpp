@@ -96,9 +96,9 @@ class PointCloudExtractor : public PointExtractor {
 
     SensorPoints out;
     out.sensor_pose = scan.sensorPose;
-    out.labels = labelsOf(cloud, rules);
-    out.points.reserve(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i) out.points.emplace_back(x[i], y[i], z[i]);
+    const std::vector<PointLabel> labels = labelsOf(cloud, rules);
+    out.reserve(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) out.add({x[i], y[i], z[i]}, labels[i]);
     return out;
   }
 };

@@ -97,11 +97,34 @@ class RangeCameraExtractor : public PointExtractor {
     // Unprojecting is not const, and load() writes although it is: others may read the original.
     CObservation3DRangeScan copy = scan;
     copy.load();  // the images may lie in files of their own
-    if (copy.hasRangeImage) unproject(copy);
-    return pointsOf(copy, rules);
+    std::size_t no_returns = 0;
+    if (copy.hasRangeImage) {
+      no_returns = clearNoReturns(copy);
+      unproject(copy);
+    }
+    SensorPoints points = pointsOf(copy, rules);
+    points.no_returns += no_returns;
+    return points;
   }
 
  private:
+  /// Makes pixels without a return 0, which MRPT leaves out when it unprojects. Returns how many
+  /// there are.
+  static std::size_t clearNoReturns(CObservation3DRangeScan& scan) {
+    std::size_t count = 0;
+    for (int row = 0; row < scan.rangeImage.rows(); ++row) {
+      for (int column = 0; column < scan.rangeImage.cols(); ++column) {
+        std::uint16_t& steps = scan.rangeImage(row, column);
+        const bool is_return = steps != 0 && steps != kSaturatedRange &&
+                               steps * static_cast<double>(scan.rangeUnits) <= scan.maxRange;
+        if (is_return) continue;
+        steps = 0;
+        ++count;
+      }
+    }
+    return count;
+  }
+
   /// Into the points of the observation itself, in the frame of the sensor: the indices of their
   /// pixels come with them.
   static void unproject(CObservation3DRangeScan& scan) {
@@ -130,10 +153,16 @@ class RangeCameraExtractor : public PointExtractor {
     const std::size_t count = scan.points3D_x.size();
     if (scan.points3D_y.size() != count || scan.points3D_z.size() != count)
       throw std::runtime_error("its points have coordinates of unequal number");
-    out.points.reserve(count);
-    for (std::size_t i = 0; i < count; ++i)
-      out.points.emplace_back(scan.points3D_x[i], scan.points3D_y[i], scan.points3D_z[i]);
-    out.labels = scan.pixelLabels ? labelsOf(scan, rules) : std::vector<PointLabel>(count);
+    const std::vector<PointLabel> labels =
+        scan.pixelLabels ? labelsOf(scan, rules) : std::vector<PointLabel>(count);
+    out.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3f point(scan.points3D_x[i], scan.points3D_y[i], scan.points3D_z[i]);
+      if (!scan.hasRangeImage && point.norm() > scan.maxRange)
+        ++out.no_returns;
+      else
+        out.add(point, labels[i]);
+    }
     return out;
   }
 

@@ -4,6 +4,7 @@
 #include <mrpt/obs/VelodyneCalibration.h>
 
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -107,8 +108,12 @@ class RotatingScanExtractor : public PointExtractor {
       const double azimuth = azimuths.start + azimuths.step * column;
       const Eigen::Vector2d direction(std::cos(azimuth), std::sin(azimuth));
       for (int row = 0; row < rows; ++row) {
-        const double range = scan.rangeImage(row, column) * scan.rangeResolution;
-        if (range == 0) continue;  // no return
+        const std::uint16_t steps = scan.rangeImage(row, column);
+        const double range = steps * scan.rangeResolution;
+        if (steps == 0 || steps == kSaturatedRange || !(range > 0) || range > scan.maxRange) {
+          ++out.no_returns;
+          continue;
+        }
         const Elevation& elevation = elevations[static_cast<std::size_t>(row)];
         const Eigen::Vector3d point(range * elevation.cosine * direction.x(),
                                     range * elevation.cosine * direction.y(),

@@ -24,6 +24,8 @@ class PacketPoints : public CObservationVelodyneScan::PointCloudStorageWrapper {
     out_->add({x, y, z}, labelled ? rules_->fromRaw(intensity) : PointLabel{});
   }
 
+  void addNoReturn() { ++out_->no_returns; }
+
  private:
   SensorPoints* out_;
   const LabelRules* rules_;
@@ -47,7 +49,7 @@ class VelodyneExtractor : public PointExtractor {
     out.sensor_pose = scan.sensorPose;
     PacketPoints points(out, rules);
     if (scan.scan_packets.empty()) {
-      addCloud(scan.point_cloud, points);
+      addCloud(scan, points);
     } else {
       addPackets(scan, points);
     }
@@ -63,13 +65,18 @@ class VelodyneExtractor : public PointExtractor {
     copy.generatePointCloud(points, parameters);
   }
 
-  static void addCloud(const CObservationVelodyneScan::TPointCloud& cloud, PacketPoints& points) {
+  static void addCloud(const CObservationVelodyneScan& scan, PacketPoints& points) {
+    const auto& cloud = scan.point_cloud;
     const std::size_t count = cloud.x.size();
     if (cloud.y.size() != count || cloud.z.size() != count || cloud.intensity.size() != count)
       throw std::runtime_error("point_cloud has coordinates and intensities of unequal number");
     points.reserve(count);
-    for (std::size_t i = 0; i < count; ++i)
-      points.add_point(cloud.x[i], cloud.y[i], cloud.z[i], cloud.intensity[i], {}, 0, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (Eigen::Vector3f(cloud.x[i], cloud.y[i], cloud.z[i]).norm() > scan.maxRange)
+        points.addNoReturn();
+      else
+        points.add_point(cloud.x[i], cloud.y[i], cloud.z[i], cloud.intensity[i], {}, 0, 0);
+    }
   }
 };
 

@@ -5,9 +5,10 @@
 namespace csom {
 namespace {
 
-/// True for points that hit something of which no camera tells what it is.
-bool unseen(PointFate fate) {
-  return fate == PointFate::OutsideView || fate == PointFate::Hidden || fate == PointFate::AtEdge;
+/// True for points that hit something of which no camera tells what it is. Less sure than
+/// min_confidence is another matter, for which there is an option.
+bool hasNoClass(PointFate fate) {
+  return fate != PointFate::Labelled && fate != PointFate::LowConfidence;
 }
 
 }  // namespace
@@ -18,12 +19,13 @@ AdaptedScan scanOf(const WaitingScan& waiting, const LabelledPoints& labelled,
   adapted.timestamp = waiting.time;
   adapted.sensor_label = waiting.sensor_label;
   adapted.observation_class = waiting.observation_class;
+  adapted.no_returns = waiting.points.no_returns;
   adapted.scan.origin = waiting.sensor_in_map.translation();
   const Eigen::Matrix3d rotation = waiting.sensor_in_map.linear();
   const auto classes = static_cast<std::size_t>(number_of_classes);
   const bool soft = !labelled.scores.empty();
   for (std::size_t i = 0; i < waiting.points.points.size(); ++i) {
-    const bool keep = unlabelled != kFreeClass && unseen(labelled.fates[i]);
+    const bool keep = unlabelled != kFreeClass && hasNoClass(labelled.fates[i]);
     if (labelled.fates[i] != PointFate::Labelled && !keep) continue;
     if (keep) ++kept_unlabelled;
     const Eigen::Vector3d point = rotation * waiting.points.points[i].cast<double>();

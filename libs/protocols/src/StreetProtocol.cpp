@@ -5,22 +5,14 @@
 #include <csom/protocols/StreetProtocol.h>
 #include <csom/rawlog/Import.h>
 
-#include <charconv>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 
 namespace csom {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// 000012.bin has line 12 of the poses; a file not named by a number has that of its position.
-std::size_t numberOf(const fs::path& file, std::size_t position) {
-  const std::string stem = file.stem().string();
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
-  return error == std::errc() && end == stem.data() + stem.size() ? number : position;
-}
 
 class StreetFolder {
  public:
@@ -32,12 +24,15 @@ class StreetFolder {
         camera_poses_(readKittiPoses(poses_file_)),
         camera_from_velodyne_(readKittiOdometryCalibration((folder_ / "calib.txt").string())) {}
 
-  StreetScan read(const fs::path& file, std::size_t position) {
-    const std::size_t number = numberOf(file, position);
+  /// `number`: of the frame, which is the line of its pose.
+  StreetScan read(const fs::path& file, std::size_t number) {
     if (number >= camera_poses_.size())
       throw FileError(poses_file_, "has " + std::to_string(camera_poses_.size()) +
                                        " poses, so none for " + file.string());
-    const Eigen::Isometry3d pose = camera_poses_[number] * camera_from_velodyne_;
+    if (!camera_poses_[number])
+      throw FileError(poses_file_, "line " + std::to_string(number + 1) +
+                                       " is blank, so there is no pose for " + file.string());
+    const Eigen::Isometry3d pose = *camera_poses_[number] * camera_from_velodyne_;
     StreetScan scan;
     scan.origin = pose.translation();
     for (const Eigen::Vector3f& point : readKittiScan(file.string()).points)
@@ -66,7 +61,7 @@ class StreetFolder {
   bool predictions_;
   const LabelSet& labels_;
   std::string poses_file_;
-  std::vector<Eigen::Isometry3d> camera_poses_;
+  std::vector<std::optional<Eigen::Isometry3d>> camera_poses_;
   Eigen::Isometry3d camera_from_velodyne_;
   std::size_t unknown_ = 0;
 };
@@ -83,7 +78,9 @@ Street readStreet(const std::string& folder, const LabelSet& labels, bool predic
   street.labels = labels;
   StreetFolder reader(folder, labels, predictions);
   const auto files = detail::filesIn((fs::path(folder) / "velodyne").string(), ".bin");
-  for (std::size_t i = 0; i < files.size(); ++i) street.scans.push_back(reader.read(files[i], i));
+  const auto numbers = detail::numbersOfFiles(files);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    street.scans.push_back(reader.read(files[i], numbers[i]));
   if (reader.unknownLabels() > 0)
     street.warnings.push_back(folder + ": did not use " + std::to_string(reader.unknownLabels()) +
                               " labels that the label set '" + labels.name() + "' does not know");

@@ -38,7 +38,7 @@ Checkpoints::Checkpoints(const CheckpointRequest& request, const MappingRequest&
                          CSemanticContinuousMap::Ptr& map, MappingState& state)
     : request_(request) {
   if (request_.max_memory) keepNoFreedMemory();
-  writeInputs(mapping, constant_);
+  writeInputs(mapping, map->labelOptions, constant_);
   if (request_.resume) {
     resume(map, state);
     return;
@@ -82,6 +82,8 @@ void Checkpoints::resume(CSemanticContinuousMap::Ptr& map, MappingState& state) 
                     "its label set is not the one that the ini names now; put that back, or remove "
                     "the file and begin anew");
   before->announce_damaged = map->announce_damaged;
+  // The networks are loaded already, and where labels are kept is not for the file to say.
+  before->takeLabelSourcesOf(*map);
   map = before;
   // With little memory all voxels stay in the file.
   in_parts_ = request_.max_memory.has_value();

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <ctime>
 #include <filesystem>
+#include <map>
 #include <string_view>
 
 namespace csom::detail {
@@ -40,12 +41,20 @@ std::vector<std::size_t> choose(const ScanSelection& selection, const std::strin
   return positions;
 }
 
-std::optional<std::size_t> numberOfFile(const std::string& file) {
-  const std::string stem = fs::path(file).stem().string();
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
-  if (error != std::errc() || end != stem.data() + stem.size()) return std::nullopt;
-  return number;
+std::vector<std::size_t> numbersOfFiles(const std::vector<std::string>& files) {
+  std::vector<std::size_t> numbers;
+  std::map<std::size_t, std::string> file_of;
+  for (const std::string& file : files) {
+    const std::string stem = fs::path(file).stem().string();
+    std::size_t number = 0;
+    if (!parseNumber(stem, number))
+      throw FileError(file, "its name is no number, so it is not known which frame it is");
+    const auto [other, is_new] = file_of.emplace(number, file);
+    if (!is_new)
+      throw FileError(file, "is frame " + std::to_string(number) + ", and so is " + other->second);
+    numbers.push_back(number);
+  }
+  return numbers;
 }
 
 namespace {
@@ -90,36 +99,42 @@ std::optional<double> timeOf(const std::vector<std::string_view>& columns) {
   return std::nullopt;
 }
 
-std::vector<double> readTimes(const std::string& file) {
-  std::vector<double> times;
+std::vector<std::optional<double>> readTimes(const std::string& file) {
+  std::vector<std::optional<double>> times;
   const std::string text = readFile(file);
   LineReader lines(text);
   std::string_view line;
   std::vector<std::string_view> columns;
   while (lines.next(line)) {
     splitColumns(line, columns);
+    times.emplace_back();
     if (columns.empty()) continue;
     const auto time = timeOf(columns);
     if (!time)
       throw FileError(
           file, "line " + std::to_string(lines.lineNumber()) + ": " + quoted(line) + " is no time");
-    times.push_back(*time);
+    times.back() = time;
   }
   return times;
 }
 
 }  // namespace
 
-ScanTimes::ScanTimes(const std::string& file) : file_(file) {
+FrameTimes::FrameTimes(const std::string& file) : file_(file) {
   std::error_code error;
   if (fs::symlink_status(file, error).type() != fs::file_type::not_found) times_ = readTimes(file);
 }
 
-double ScanTimes::of(std::size_t number, const std::string& scan) const {
+double FrameTimes::of(std::size_t number, const std::string& scan) const {
   if (!times_) return static_cast<double>(number) * kScanPeriod;
   if (number >= times_->size())
-    throw FileError(file_, "has " + std::to_string(times_->size()) + " times, so none for " + scan);
-  return (*times_)[number];
+    throw FileError(file_,
+                    "has " + std::to_string(times_->size()) + " lines, so no time for " + scan);
+  const std::optional<double>& time = (*times_)[number];
+  if (!time)
+    throw FileError(file_, "line " + std::to_string(number + 1) + " is blank, so there is no time for " +
+                               scan + "; leave that one out with --scans");
+  return *time;
 }
 
 }  // namespace csom::detail

@@ -17,24 +17,23 @@ constexpr double kScanPeriod = 0.1;  ///< [s], where a data set gives no times
 std::vector<std::size_t> choose(const ScanSelection& selection, const std::string& folder,
                                 std::size_t count);
 
-/// The number that a file is named by ("000012.bin" → 12); nothing if its name is none.
-std::optional<std::size_t> numberOfFile(const std::string& file);
-
-/// When the scans of a data set were taken, from a file of one time a line: either seconds
+/// When the frames of a data set were taken, from a file of one time a line: either seconds
 /// (times.txt of KITTI odometry) or "2011-09-26 13:02:25.96" (timestamps.txt of KITTI raw, taken as
-/// UTC). Without such a file the scans are kScanPeriod apart, the first at 0.
-class ScanTimes {
+/// UTC). Line i, counted from 0, is of frame i, also where other lines are blank. Without such a file
+/// the frames are kScanPeriod apart, the first at 0.
+class FrameTimes {
  public:
   /// Throws FileError if there is such a file but it cannot be read, naming the line.
-  explicit ScanTimes(const std::string& file);
+  explicit FrameTimes(const std::string& file);
 
-  /// Time [s] of the scan of this number, which is in the file `scan`. Throws FileError if the file
-  /// of times ends before: times of two origins in one log would not agree.
+  bool areGiven() const { return times_.has_value(); }
+  /// Time [s] of the frame of this number, which is in the file `scan`. Throws FileError if its line
+  /// is blank or the file of times ends before: times of two origins in one log would not agree.
   double of(std::size_t number, const std::string& scan) const;
 
  private:
   std::string file_;
-  std::optional<std::vector<double>> times_;
+  std::optional<std::vector<std::optional<double>>> times_;
 };
 
 }  // namespace csom::detail

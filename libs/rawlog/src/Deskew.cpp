@@ -82,7 +82,10 @@ class MovedPoints : public CObservationVelodyneScan::PointCloudStorageWrapper {
     out_.y.push_back(moved.y());
     out_.z.push_back(moved.z());
     out_.intensity.push_back(intensity);
+    farthest_ = std::max(farthest_, moved.norm());
   }
+  /// Largest range of a point that was added [m].
+  float farthest() const { return farthest_; }
 
  private:
   std::optional<Eigen::Isometry3d> sensorAt(double time) const {
@@ -96,6 +99,7 @@ class MovedPoints : public CObservationVelodyneScan::PointCloudStorageWrapper {
   const Eigen::Isometry3d mount_;
   CObservationVelodyneScan::TPointCloud& out_;
   bool complete_ = false;
+  float farthest_ = 0;
   Eigen::Isometry3d start_from_map_ = Eigen::Isometry3d::Identity();
   std::optional<mrpt::system::TTimeStamp> packet_;
   Eigen::Isometry3d start_from_packet_ = Eigen::Isometry3d::Identity();
@@ -136,6 +140,8 @@ CObservationVelodyneScan::Ptr deskewed(const CObservationVelodyneScan& scan,
   }
   ++statistics.deskewed;
   copy->scan_packets.clear();
+  // What the sensor saw at its longest range may be a little farther from where it began its turn.
+  copy->maxRange = std::max(copy->maxRange, static_cast<double>(points.farthest()));
   return copy;
 }
 

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Point clouds in PCD files become a rawlog.
 #include <csom/core/Error.h>
+#include <csom/io/TextParser.h>
 #include <csom/rawlog/ImportPcd.h>
 #include <csom/rawlog/RawlogWriter.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
-#include <string_view>
 
 #include "DataSetFiles.h"
+#include "FrameNumbers.h"
 #include "LoggedScan.h"
 
 namespace csom {
@@ -29,21 +31,35 @@ std::vector<std::string> expand(const std::vector<std::string>& given) {
   return files;
 }
 
-/// Points relative to the sensor, and what their intensity carries.
+/// Points relative to the sensor, and their labels.
 struct Cloud {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3f> points;
-  std::vector<float> carried;
-  const char* field = nullptr;  ///< name of the field that they come from; null for none
+  std::vector<float> labels;  ///< one a point; empty if label_field is
+  std::string label_field;    ///< as the file spells it; empty: it has none
+  std::vector<std::string> fields;
 };
 
-/// Name of the field that is carried along, null for none.
-const char* fieldOf(const PcdCloud& cloud, PcdField wanted, const std::string& file) {
-  if (wanted == PcdField::Label && !cloud.has_labels) throw FileError(file, "has no field 'label'");
-  if (wanted == PcdField::Intensity && !cloud.has_intensities)
-    throw FileError(file, "has no field 'intensity'");
-  if (wanted != PcdField::Intensity && cloud.has_labels) return "label";
-  return cloud.has_intensities ? "intensity" : nullptr;
+constexpr char kLabel[] = "cloud";  ///< of the sensor
+constexpr char kDefaultField[] = "label";
+
+/// Names under which others write classes.
+bool looksLikeLabels(std::string field) {
+  std::transform(field.begin(), field.end(), field.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const char* word : {"label", "class", "semantic", "categor", "segment"})
+    if (field.find(word) != std::string::npos) return true;
+  return false;
+}
+
+/// "none; FIELDS are x, y, z, classification; --labels classification takes those of that field".
+std::string whyNoLabels(const std::vector<std::string>& fields) {
+  std::string text = "none; the fields are " + detail::joined(fields);
+  for (const std::string& field : fields) {
+    if (looksLikeLabels(field))
+      return text + "; --labels " + detail::printable(field) + " takes them from that one";
+  }
+  return text + "; --labels FIELD takes them from another field";
 }
 
 class PcdFiles {
@@ -52,21 +68,37 @@ class PcdFiles {
       : request_(request), summary_(summary) {}
 
   Cloud read(const std::string& file) {
-    const PcdCloud raw = readPcd(file, request_.row_policy);
+    const std::string& field = request_.label_field;
+    const PcdCloud raw = readPcd(file, request_.row_policy, field.empty() ? kDefaultField : field);
+    if (!field.empty() && raw.label_field.empty())
+      throw FileError(file, "has no field " + detail::quoted(field) + " with one value a point; there are " +
+                                detail::joined(raw.fields));
+    requireSameLabels(raw, file);
+    requireNearViewpoint(raw, file);
     report(raw, file);
     Cloud cloud;
     cloud.origin = raw.viewpoint;
     cloud.points.reserve(raw.points.size());
-    for (const Eigen::Vector3d& point : raw.points)
-      cloud.points.push_back((point - cloud.origin).cast<float>());
-    cloud.field = fieldOf(raw, request_.field, file);
-    const bool carries_labels = cloud.field != nullptr && cloud.field == std::string_view("label");
-    cloud.carried = carries_labels ? detail::labelsAsIntensities(raw.labels) : raw.intensities;
+    for (const Eigen::Vector3d& point : raw.points) {
+      const bool no_return = point.isZero(0);
+      no_returns_ += no_return ? 1 : 0;
+      const Eigen::Vector3d& end = no_return ? cloud.origin : point;
+      cloud.points.emplace_back((end - cloud.origin).cast<float>());
+    }
+    cloud.labels = detail::labelsAsIntensities(raw.labels);
+    cloud.label_field = raw.label_field;
+    cloud.fields = raw.fields;
     return cloud;
   }
 
   /// One line for each kind of fault, however many files have it.
   void addWarnings() const {
+    summary_.labels = label_field_.empty() ? whyNoLabels(fields_)
+                                           : "the field " + detail::quoted(label_field_);
+    if (no_returns_ > 0)
+      summary_.warnings.push_back(std::to_string(no_returns_) +
+                                  " points lie at exactly 0, 0, 0: they are taken for beams "
+                                  "without a return");
     for (const auto& [what, fault] : faults_) {
       std::string text = fault.first + ": " + std::to_string(fault.count) + " " + what;
       if (fault.files > 1)
@@ -81,6 +113,40 @@ class PcdFiles {
     std::size_t files = 0;
     std::string first;  ///< file, and line if known
   };
+
+  /// Points of a scan are floats relative to the sensor. Coordinates of a country's grid lie so far
+  /// from a VIEWPOINT of 0 that none could hold them.
+  static void requireNearViewpoint(const PcdCloud& raw, const std::string& file) {
+    constexpr double kFarthest = 1 << 17;  // [m], to which floats are 16 mm apart
+    std::size_t far = 0;
+    std::size_t finite = 0;
+    for (const Eigen::Vector3d& point : raw.points) {
+      if (!point.allFinite()) continue;
+      ++finite;
+      far += (point - raw.viewpoint).norm() > kFarthest ? 1 : 0;
+    }
+    if (2 * far <= finite) return;
+    throw FileError(file, std::to_string(far) + " of its " + std::to_string(finite) +
+                              " points lie more than 131 km from its VIEWPOINT, where the sensor "
+                              "should have been. If they are coordinates such as UTM, write the "
+                              "sensor's position into VIEWPOINT, or subtract one offset from the "
+                              "points of all files");
+  }
+
+  /// Which points have labels must not depend on the file that they are in.
+  void requireSameLabels(const PcdCloud& raw, const std::string& file) {
+    if (first_file_.empty()) {
+      first_file_ = file;
+      label_field_ = raw.label_field;
+      fields_ = raw.fields;
+    }
+    if (raw.label_field == label_field_) return;
+    const auto named = [](const std::string& field) {
+      return field.empty() ? "no labels" : "the field " + detail::quoted(field);
+    };
+    throw FileError(file, "has " + named(raw.label_field) + ", but " + first_file_ + " has " +
+                              named(label_field_) + "; import them apart");
+  }
 
   void report(const PcdCloud& raw, const std::string& file) {
     const std::string line = ", line " + std::to_string(raw.first_irregular_line);
@@ -104,31 +170,31 @@ class PcdFiles {
   }
 
   std::map<std::string, Fault> faults_;
+  std::size_t no_returns_ = 0;
+  std::string first_file_;
+  std::string label_field_;          ///< of all files
+  std::vector<std::string> fields_;  ///< of the first one
   const PcdImport& request_;
   ImportSummary& summary_;
 };
-
-std::string fieldName(const Cloud& cloud) {
-  return cloud.field == nullptr ? "neither labels nor intensities"
-                                : "the field '" + std::string(cloud.field) + "'";
-}
 
 void append(Cloud& all, const Cloud& part, const std::string& file, const std::string& first) {
   if (part.origin != all.origin)
     throw ConfigError(file + ": its VIEWPOINT is not that of " + first +
                       ", so --single-scan cannot take both; import one scan a file");
-  if (fieldName(part) != fieldName(all))
-    throw FileError(file, "has " + fieldName(part) + ", but " + first + " has " + fieldName(all) +
-                              ", so --single-scan cannot take both");
   all.points.insert(all.points.end(), part.points.begin(), part.points.end());
-  all.carried.insert(all.carried.end(), part.carried.begin(), part.carried.end());
+  all.labels.insert(all.labels.end(), part.labels.begin(), part.labels.end());
+}
+
+double timeOf(std::size_t position) {
+  return static_cast<double>(position) * detail::kScanPeriod;
 }
 
 void write(RawlogWriter& log, const Cloud& cloud, std::size_t position, ImportSummary& summary) {
-  const double time = static_cast<double>(position) * detail::kScanPeriod;
+  const double time = timeOf(position);
   const mrpt::poses::CPose3D pose(cloud.origin.x(), cloud.origin.y(), cloud.origin.z(), 0, 0, 0);
   log.write(detail::poseObservation(pose, time));
-  log.write(detail::cloudObservation(cloud.points, cloud.carried, time, "cloud"));
+  log.write(detail::cloudObservation(cloud.points, cloud.labels, time, kLabel));
   ++summary.scans;
   summary.points += cloud.points.size();
 }
@@ -141,6 +207,11 @@ ImportSummary importPcd(const PcdImport& request, const std::string& rawlog,
   if (files.empty()) throw ConfigError("no PCD file given");
   const auto chosen = detail::choose(request.selection, files.front(), files.size());
   RawlogWriter log(rawlog);
+  if (!request.single_scan) {
+    detail::FrameNumbers frames;
+    for (const std::size_t position : chosen) frames.add(kLabel, timeOf(position), position);
+    log.write(frames.toComment());
+  }
   ImportSummary summary;
   PcdFiles reader(request, summary);
   std::optional<Cloud> all;

@@ -3,17 +3,20 @@
 #include "LoggedScan.h"
 
 #include <mrpt/core/Clock.h>
+#include <mrpt/maps/CSimplePointsMap.h>
 
 namespace csom::detail {
 
 mrpt::obs::CObservationPointCloud cloudObservation(const std::vector<Eigen::Vector3f>& points,
                                                    const std::vector<float>& carried, double time,
                                                    const std::string& sensor_label) {
-  auto cloud = mrpt::maps::CPointsMapXYZI::Create();
+  const auto with_intensities = mrpt::maps::CPointsMapXYZI::Create();
+  mrpt::maps::CPointsMap::Ptr cloud = with_intensities;
+  if (carried.empty()) cloud = mrpt::maps::CSimplePointsMap::Create();
   cloud->resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     cloud->setPointFast(i, points[i].x(), points[i].y(), points[i].z());
-    cloud->setPointIntensity(i, carried.empty() ? 0.0f : carried[i]);
+    if (!carried.empty()) with_intensities->setPointIntensity(i, carried[i]);
   }
   mrpt::obs::CObservationPointCloud observation;
   observation.pointcloud = cloud;

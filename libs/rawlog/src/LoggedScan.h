@@ -13,7 +13,8 @@
 
 namespace csom::detail {
 
-/// `carried[i]`, a label or a reflectance, becomes the intensity of point i; empty: 0.
+/// `carried[i]`, a label or a reflectance, becomes the intensity of point i; empty: the points have
+/// none, so that nobody takes it for a label.
 mrpt::obs::CObservationPointCloud cloudObservation(const std::vector<Eigen::Vector3f>& points,
                                                    const std::vector<float>& carried, double time,
                                                    const std::string& sensor_label);

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From logs to a map: what `csom map` does, without its files and its terminal.
 #include <csom/core/Error.h>
+#include <csom/io/InputFile.h>
 #include <csom/io/TextParser.h>
 #include <csom/rawlog/MappingRun.h>
 #include <csom/rawlog/RawlogSurvey.h>
 #include <csom/rawlog/ReadAhead.h>
-#include <mrpt/obs/CObservationImage.h>
-#include <mrpt/obs/CObservationStereoImages.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
@@ -22,6 +22,7 @@
 #include "MappingState.h"
 #include "MrptText.h"
 #include "PosedLog.h"
+#include "RegisteredScans.h"
 
 namespace csom {
 namespace {
@@ -32,6 +33,7 @@ using mrpt::poses::CPose3D;
 constexpr char kOtherKind[] = "of a kind that this map does not take";
 
 constexpr char kNoLabelSource[] = "no label source of the ini names their sensor label";
+constexpr char kNoPose[] = "no pose at its time";
 constexpr char kNoPoints[] = "none of its points can be used";
 
 /// Enough for the network to find the next scan ready, few enough for memory.
@@ -56,11 +58,6 @@ std::optional<std::string> whyNotTaken(const LastInsertion& last) {
       break;
   }
   return std::nullopt;
-}
-
-bool isImage(const mrpt::obs::CObservation& observation) {
-  return dynamic_cast<const mrpt::obs::CObservationImage*>(&observation) != nullptr ||
-         dynamic_cast<const mrpt::obs::CObservationStereoImages*>(&observation) != nullptr;
 }
 
 CSemanticContinuousMap::TMapDefinition definitionOf(const std::string& file) {
@@ -115,6 +112,7 @@ class MappingRun {
     if (request_.poses && request_.poses->kind == PoseChoice::Kind::Icp && request_.logs.size() > 1)
       throw ConfigError("--poses icp: " + std::to_string(request_.logs.size()) +
                         " logs would each begin at the same place; map them one by one");
+    requireDifferentLogs();
     for (const std::string& log : request_.logs) {
       surveys.push_back(survey(log));
       poses.emplace_back(request_.poses, surveys.back());
@@ -132,6 +130,7 @@ class MappingRun {
   }
 
  private:
+  void requireDifferentLogs() const;
   RawlogSurvey survey(const std::string& log);
   void mapAll(const std::vector<RawlogSurvey>& surveys, std::vector<PoseSource>& poses);
   void mapLog(const RawlogSurvey& survey, PoseSource& poses, std::size_t entries_before);
@@ -139,7 +138,7 @@ class MappingRun {
   void keepEntry(const detail::PosedEntry& entry);
   void mapInMemory(const detail::PosedEntry& entry);
   MappingProgress progress(const std::string& log) const;
-  void noteRegistration(const PoseSource& poses);
+  void notePoses(const std::string& log, const PoseSource& poses);
   void insert(const mrpt::obs::CObservation& observation, const CPose3D& pose);
   void flush();
   void noteScans(std::size_t scans_before, double elapsed_ms);
@@ -154,7 +153,10 @@ class MappingRun {
     if (reason != kOtherKind && reason != kNoLabelSource) ++state_.observations_refused;
   }
   void warn(const std::string& text) { result_.warnings.push_back(text); }
+  std::string rangeHint() const;
+  std::string farthestOrigin(double reach) const;
   void warnAboutPoints();
+  void warnAboutViews(const CameraStatistics& cameras);
   void warnAboutCameras();
   void finish();
   std::string whyEmpty() const;
@@ -171,6 +173,18 @@ class MappingRun {
   mrpt::obs::CSensoryFrame::Ptr open_frame_;
   CPose3D open_frame_pose_;
 };
+
+/// A log that is named twice would count twice.
+void MappingRun::requireDifferentLogs() const {
+  if (request_.logs.size() < 2) return;
+  std::map<std::string, std::string> file_of;
+  for (const std::string& log : request_.logs) {
+    const auto [same, is_new] = file_of.emplace(detail::fileHash(log), log);
+    if (!is_new)
+      throw ConfigError(log + ": has the same content as " + same->second +
+                        ": its scans would count twice; name each log once");
+  }
+}
 
 RawlogSurvey MappingRun::survey(const std::string& log) {
   RawlogSurvey found = surveyRawlog(log);
@@ -231,7 +245,7 @@ void MappingRun::mapLog(const RawlogSurvey& survey, PoseSource& poses, std::size
     entries_done_ += survey.end.entries;
   }
   if (!mapped_before) flush();
-  noteRegistration(poses);
+  notePoses(survey.file, poses);
 }
 
 /// An insertion that memory was too short for may be in the map by half: what counts is what was
@@ -252,7 +266,7 @@ void MappingRun::mapEntry(const detail::PosedEntry& entry) {
   for (const auto& [observation, pose] : entry.observations) {
     ++state_.observations_read;
     if (!pose) {
-      refuse(*observation, "no pose at its time");
+      refuse(*observation, kNoPose);
       continue;
     }
     insert(*observation, *pose);
@@ -268,7 +282,8 @@ void MappingRun::keepEntry(const detail::PosedEntry& entry) {
   }
 }
 
-void MappingRun::noteRegistration(const PoseSource& poses) {
+void MappingRun::notePoses(const std::string& log, const PoseSource& poses) {
+  for (const std::string& doubt : poses.doubts()) warn(log + ": " + doubt);
   result_.registration = poses.registration();
   if (!result_.registration) return;
   for (const auto& [time, pose] : poses.track().poses())
@@ -281,6 +296,9 @@ void MappingRun::noteRegistration(const PoseSource& poses) {
 
 void MappingRun::insert(const mrpt::obs::CObservation& observation, const CPose3D& pose) {
   CSemanticContinuousMap& map = *result_.map;
+  const Eigen::Vector3d position(pose.x(), pose.y(), pose.z());
+  if (position.cwiseAbs().maxCoeff() > state_.farthest.cwiseAbs().maxCoeff())
+    state_.farthest = position;
   const std::size_t scans_before = map.scans().size();
   const auto start = std::chrono::steady_clock::now();
   map.insertObservation(observation, pose);
@@ -290,7 +308,7 @@ void MappingRun::insert(const mrpt::obs::CObservation& observation, const CPose3
 
   const LastInsertion last = map.lastInsertion();
   if (auto reason = whyNotTaken(last)) {
-    if (reason == kOtherKind && map.labelOptions.usesCameras() && isImage(observation))
+    if (reason == kOtherKind && map.labelOptions.usesCameras() && detail::isImage(observation))
       reason = kNoLabelSource;
     refuse(observation, *reason);
     return;
@@ -325,7 +343,7 @@ MappingProgress MappingRun::progress(const std::string& log) const {
   const InsertionStatistics& statistics = map.statistics();
   std::size_t rejected =
       state_.points_rejected + statistics.unused.rejectedTotal() + statistics.labels.dropped();
-  if (const auto cameras = map.cameraStatistics()) rejected += cameras->pointsDropped();
+  if (const auto cameras = map.cameraStatistics()) rejected += cameras->pointsRejected();
   const bool in_parts = checkpoints_ && !checkpoints_->voxelsInMemory();
   return {log,       entries_done_,
           entries_,  map.scans().size(),
@@ -350,6 +368,29 @@ void MappingRun::keep(const mrpt::obs::CObservation::Ptr& observation, const CPo
   open_frame_->insert(detail::withAbsoluteImagePaths(observation));
 }
 
+/// How far a map reaches, and what to do with coordinates of a country's grid.
+std::string MappingRun::rangeHint() const {
+  const double resolution = result_.map->map().options().resolution;
+  const double reach = resolution * kMaxVoxelIndex;
+  char text[320];
+  std::snprintf(text, sizeof text,
+                "; at resolution %g m a map reaches %.0f km from its origin along each axis%s. "
+                "Subtract one offset from all poses (for UTM, the position of the first one), or "
+                "raise the resolution",
+                resolution, reach / 1000, farthestOrigin(reach).c_str());
+  return text;
+}
+
+/// ", and the sensor was at …" if it was too far away.
+std::string MappingRun::farthestOrigin(double reach) const {
+  const Eigen::Vector3d& origin = state_.farthest;
+  if (origin.cwiseAbs().maxCoeff() <= reach) return "";
+  char text[128];
+  std::snprintf(text, sizeof text, ", and the robot was at (%.1f, %.1f, %.1f)", origin.x(),
+                origin.y(), origin.z());
+  return text;
+}
+
 void MappingRun::warnAboutPoints() {
   const InsertionStatistics& statistics = result_.map->statistics();
   ScanReport sum = statistics.unused;
@@ -358,19 +399,46 @@ void MappingRun::warnAboutPoints() {
     const auto reason = static_cast<RejectReason>(i);
     // A range limit is a wish of the user's, not a fault of the data.
     if (reason == RejectReason::TooNear || reason == RejectReason::TooFar) continue;
-    if (sum.rejected[i] > 0)
-      warn("rejected " + counted(sum.rejected[i], "points: ") + toString(reason));
+    if (sum.rejected[i] == 0) continue;
+    warn("rejected " + counted(sum.rejected[i], "points: ") + toString(reason) +
+         (reason == RejectReason::OutsideIndexRange ? rangeHint() : ""));
   }
   const std::string set = "'" + result_.map->labels().name() + "'";
   const LabelCounts& labels = statistics.labels;
-  if (labels.unknown > 0)
-    warn("left out " + counted(labels.unknown, "points whose label is not in the label set ") +
-         set + "; if their intensities are no labels, set point_labels = none");
+  const auto warnAboutUnknown = [&](const char* what, std::size_t count, const char* rest) {
+    if (count == 0) return;
+    warn(what + counted(count, "points whose label is not in the label set ") + set +
+         ", or means free" + rest + "; if their intensities are no labels, set point_labels = none");
+  };
+  warnAboutUnknown("left out ", labels.unknown, "");
+  warnAboutUnknown("kept ", labels.kept_unknown, ", as unlabelled");
   if (labels.ambiguous > 0)
     warn("left out " + counted(labels.ambiguous, "points with several labels"));
   if (labels.missing > 0)
     warn("left out " + counted(labels.missing, "points without a label") +
-         "; unlabelled_class or scan_2d_class can give them a class");
+         "; unlabelled_class or scan_2d_class can give them a class, such as unlabelled");
+}
+
+/// Cameras that look past nearly all points are probably turned the wrong way.
+void MappingRun::warnAboutViews(const CameraStatistics& cameras) {
+  constexpr double kNearlyAll = 0.98;
+  const std::size_t outside = cameras.points[static_cast<std::size_t>(PointFate::OutsideView)];
+  std::size_t all = 0;
+  for (const std::size_t count : cameras.points) all += count;
+  if (cameras.scans_labelled == 0 || static_cast<double>(outside) < kNearlyAll * static_cast<double>(all))
+    return;
+  std::string text = std::to_string(outside) + " of " + counted(all, "points lie") +
+                     " outside of the view of all cameras";
+  for (const CameraStatistics::Source& source : cameras.sources) {
+    if (source.images_read == source.images_refused) continue;
+    char axis[96];
+    std::snprintf(axis, sizeof axis, "; %s looks along (%.2f, %.2f, %.2f) of the robot",
+                  detail::quoted(source.sensor_label).c_str(), source.looks_along[0],
+                  source.looks_along[1], source.looks_along[2]);
+    text += axis;
+  }
+  warn(text + " (x ahead, y left, z up). The pose of a camera has z along its view, x to the right "
+              "and y down; one with the axes of the robot lacks a turn by yaw -90, roll -90 degrees");
 }
 
 void MappingRun::warnAboutCameras() {
@@ -380,6 +448,7 @@ void MappingRun::warnAboutCameras() {
     if (source.images_read == 0)
       warn("label source " + detail::quoted(source.sensor_label) + ": no image of it was read");
   }
+  warnAboutViews(*cameras);
   if (cameras->scans_without_image > 0)
     warn(counted(cameras->scans_without_image, "scans") +
          " had no image within max_time_offset: their points have no label");

@@ -5,6 +5,7 @@
 #include <csom/core/Error.h>
 #include <csom/io/InputFile.h>
 #include <csom/io/TextParser.h>
+#include <csom/vision/SegmentationNetwork.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -67,6 +68,8 @@ void write(const MappingState& state, MapStore::State& out) {
   out["points_rejected"] = std::to_string(state.points_rejected);
   for (int axis = 0; axis < 3; ++axis)
     out[std::string("up.") + "xyz"[axis]] = toString(state.up[axis]);
+  for (int axis = 0; axis < 3; ++axis)
+    out[std::string("farthest.") + "xyz"[axis]] = toString(state.farthest[axis]);
   if (state.deskew) {
     out["deskew.deskewed"] = std::to_string(state.deskew->deskewed);
     out["deskew.not_needed"] = std::to_string(state.deskew->not_needed);
@@ -94,11 +97,16 @@ MappingState readMappingState(const MapStore::State& in, const std::string& file
   state.points_rejected = fields.number<std::size_t>("points_rejected");
   for (int axis = 0; axis < 3; ++axis)
     state.up[axis] = fields.number<double>(std::string("up.") + "xyz"[axis]);
+  for (int axis = 0; axis < 3; ++axis)
+    state.farthest[axis] = fields.number<double>(std::string("farthest.") + "xyz"[axis]);
   if (fields.has("deskew.deskewed"))
     state.deskew = DeskewStatistics{fields.number<std::size_t>("deskew.deskewed"),
                                     fields.number<std::size_t>("deskew.not_needed"),
                                     fields.number<std::size_t>("deskew.not_possible")};
   const std::string& times = fields.text("insert_ms");
+  if (times.size() % sizeof(double) != 0)
+    fields.fail("insert_ms", "has " + std::to_string(times.size()) +
+                                 " bytes, which is no whole number of times");
   state.insert_ms.resize(times.size() / sizeof(double));
   if (!times.empty())
     std::memcpy(state.insert_ms.data(), times.data(), state.insert_ms.size() * sizeof(double));
@@ -146,20 +154,27 @@ void write(const MappingRequest& request, MapStore::State& out) {
     out["request.poses"] = poses.toString();
   }
   if (request.threads) out["request.threads"] = std::to_string(*request.threads);
-  if (request.label_cache) out["request.label_cache"] = fs::absolute(*request.label_cache).string();
   out["request.deskew"] = toString(request.deskew);
   out["request.keep_key_frames"] = toString(request.keep_key_frames);
 }
 
-void writeInputs(const MappingRequest& request, MapStore::State& out) {
-  std::vector<std::string> files = request.logs;
-  files.push_back(request.config_file);
-  if (request.poses && request.poses->takesFile()) files.push_back(request.poses->argument);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const std::string key = kInputs + std::to_string(i + 1);
-    out[key + ".file"] = files[i];
-    out[key + ".bytes"] = std::to_string(fs::file_size(files[i]));
-    out[key + ".xxh3"] = fileHash(files[i]);
+void writeInputs(const MappingRequest& request, const LabelOptions& labels,
+                 MapStore::State& out) {
+  std::size_t number = 0;
+  const auto add = [&](const char* kind, const std::string& file) {
+    const std::string key = kInputs + std::to_string(++number);
+    out[key + ".kind"] = kind;
+    out[key + ".file"] = file;
+    out[key + ".bytes"] = std::to_string(fs::file_size(file));
+    out[key + ".xxh3"] = fileHash(file);
+  };
+  for (const std::string& log : request.logs) add(kLogInput, log);
+  add("config", request.config_file);
+  if (request.poses && request.poses->takesFile()) add("poses", request.poses->argument);
+  for (const LabelSource& source : labels.sources) {
+    if (source.kind != LabelSource::Kind::Network) continue;
+    add("network", source.network);
+    add("model", NetworkDescription::load(source.network, source.model).model);
   }
   out["config.text"] = readFile(request.config_file);
 }
@@ -170,6 +185,9 @@ void requireSameInputs(const MapStore::State& in, const MapStore::State& now,
   for (const auto& [key, value] : now) {
     if (key.rfind(kInputs, 0) != 0 || key.find(".xxh3") == std::string::npos) continue;
     const std::string input = key.substr(0, key.size() - std::strlen(".xxh3"));
+    if (!then.has(key))
+      throw FileError(now.at(input + ".file"),
+                      "was no input when this map was begun; remove " + file + " and begin anew");
     if (then.text(key) != value)
       throw FileError(now.at(input + ".file"),
                       "is not what it was when this map was begun (" + then.text(input + ".bytes") +
@@ -188,7 +206,6 @@ MappingRequest requestOf(const MapStore::State& state, const std::string& file) 
   request.config_file = fields.text("request.config");
   if (fields.has("request.poses")) request.poses = PoseChoice::parse(fields.text("request.poses"));
   if (fields.has("request.threads")) request.threads = fields.number<int>("request.threads");
-  if (fields.has("request.label_cache")) request.label_cache = fields.text("request.label_cache");
   parse("request.deskew", fields.text("request.deskew"), request.deskew);
   parse("request.keep_key_frames", fields.text("request.keep_key_frames"), request.keep_key_frames);
   return request;

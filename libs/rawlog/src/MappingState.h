@@ -19,6 +19,7 @@ struct MappingState {
   std::size_t observations_refused = 0;
   std::size_t points_rejected = 0;
   Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  Eigen::Vector3d farthest = Eigen::Vector3d::Zero();  ///< the robot's largest coordinate [m]
   std::optional<DeskewStatistics> deskew;
   std::vector<double> insert_ms;
   std::map<std::pair<std::string, std::string>, std::size_t> refused;
@@ -34,8 +35,12 @@ CSemanticContinuousMap::Ptr mapFromBytes(const std::string& bytes, const std::st
 
 void write(const MappingRequest& request, MapStore::State& out);
 
-/// Files that a run reads, with their sizes and hashes: `input.N.file` …
-void writeInputs(const MappingRequest& request, MapStore::State& out);
+/// `input.N.kind` of the logs, whose scans are in the map.
+constexpr char kLogInput[] = "log";
+
+/// Files that a run reads, those of its networks included, with their sizes and hashes: `input.N.file`
+/// … Throws FileError.
+void writeInputs(const MappingRequest& request, const LabelOptions& labels, MapStore::State& out);
 /// Throws FileError if one of them is not as it was.
 void requireSameInputs(const MapStore::State& in, const MapStore::State& now,
                        const std::string& file);

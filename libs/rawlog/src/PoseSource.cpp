@@ -7,7 +7,11 @@
 #include <csom/rawlog/PoseSource.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
+#include <algorithm>
+#include <cstdio>
+
 #include "EigenPose.h"
+#include "FrameNumbers.h"
 #include "MrptText.h"
 #include "RegisteredScans.h"
 
@@ -66,6 +70,29 @@ PoseTrack trackOfSimpleMap(const std::string& file) {
   return survey.key_frames;
 }
 
+std::string seconds(double time) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.3f", time);
+  return text;
+}
+
+/// What is wrong with times that are a thousand, a million or a billion times too large.
+std::string unitHint(const PoseGap& poses, const PoseGap& observed) {
+  struct Unit {
+    double a_second;
+    const char* name;
+  };
+  constexpr Unit kUnits[] = {{1e3, "milliseconds"}, {1e6, "microseconds"}, {1e9, "nanoseconds"}};
+  for (const Unit& unit : kUnits) {
+    const bool fits = poses.before / unit.a_second <= observed.after &&
+                      poses.after / unit.a_second >= observed.before;
+    if (fits && poses.before > observed.after && observed.after > 0)
+      return std::string("; the poses seem to be in ") + unit.name +
+             ", they must be in seconds";
+  }
+  return "";
+}
+
 }  // namespace
 
 PoseChoice PoseChoice::parse(const std::string& text) {
@@ -100,7 +127,7 @@ PoseSource::PoseSource(const std::optional<PoseChoice>& choice, const RawlogSurv
   else if (choice_.kind == Kind::Icp)
     useScans(survey);
   else
-    useFile();
+    useFile(survey);
 }
 
 PoseSource::~PoseSource() = default;
@@ -123,6 +150,7 @@ void PoseSource::useLog(const RawlogSurvey& survey) {
     const auto& [label, track] = pickTrack(survey.robot_poses, choice_.argument, survey.file);
     choice_.argument = label;
     track_ = track;
+    track_.limitGapsBySpacing();
     return;
   }
   integrates_actions_ = survey.has_actions;
@@ -134,15 +162,38 @@ void PoseSource::useLog(const RawlogSurvey& survey) {
                       ": odometry of several sensor labels; keep one of them "
                       "(rawlog-edit --remove-label) or choose another --poses");
   track_ = survey.odometry.begin()->second;
+  track_.limitGapsBySpacing();
 }
 
-void PoseSource::useFile() {
+void PoseSource::useFile(const RawlogSurvey& survey) {
+  if (choice_.kind == Kind::Kitti) {
+    useKittiFile(survey);
+    return;
+  }
   if (choice_.kind == Kind::Tum) track_ = trackOfTum(choice_.argument);
   if (choice_.kind == Kind::SimpleMap) track_ = trackOfSimpleMap(choice_.argument);
-  if (choice_.kind == Kind::Kitti) {
-    for (const Eigen::Isometry3d& pose : readKittiPoses(choice_.argument))
-      by_index_.push_back(detail::toMrpt(pose));
-  }
+  track_.limitGapsBySpacing();
+}
+
+/// A line of the file is a frame. Which frames the log holds it says itself; else it must hold all.
+void PoseSource::useKittiFile(const RawlogSurvey& survey) {
+  for (const auto& pose : readKittiPoses(choice_.argument))
+    by_index_.push_back(pose ? std::make_optional(detail::toMrpt(*pose)) : std::nullopt);
+  std::vector<std::string> unfitting;
+  for (const auto& [label, count] : survey.sensors)
+    if (count != by_index_.size())
+      unfitting.push_back(std::to_string(count) + " of " + detail::quoted(label));
+  if (unfitting.empty()) return;
+  frames_ = survey.frames;
+  if (frames_ && frames_->last() < by_index_.size()) return;
+  const std::string poses = std::to_string(by_index_.size()) + " poses";
+  if (frames_)
+    throw ConfigError(choice_.argument + ": has " + poses + ", so none for frame " +
+                      std::to_string(frames_->last()) + " (counted from 0) of " + survey.file);
+  throw ConfigError(choice_.argument + ": has " + poses + ", but " + survey.file + " holds " +
+                    detail::joined(unfitting) +
+                    " and does not say which frames these are; give it one pose a scan, or poses "
+                    "with times (--poses tum:FILE)");
 }
 
 void PoseSource::useScans(const RawlogSurvey& survey) {
@@ -161,6 +212,8 @@ void PoseSource::useScans(const RawlogSurvey& survey) {
     throw ConfigError(survey.file + ": no 3-D scans with the label " +
                       detail::quoted(choice_.argument) + "; there are " + detail::joined(labels));
   }
+  constexpr double kLongestBetweenScans = 10;
+  track_.limitGaps(kLongestBetweenScans);
   scans_ = std::make_unique<detail::RegisteredScans>(choice_.argument);
 }
 
@@ -193,19 +246,82 @@ std::optional<mrpt::poses::CPose3D> PoseSource::poseOf(const RawlogEntry& entry,
                                                        const mrpt::obs::CObservation& observation) {
   if (choice_.kind == Kind::KeyFrames) return entry.key_frame_pose;
   if (integrates_actions_) return integrated_;
-  if (choice_.kind == Kind::Kitti) {
-    const std::size_t index = next_index_[observation.sensorLabel]++;
-    if (index >= by_index_.size()) return std::nullopt;
-    return by_index_[index];
-  }
+  if (choice_.kind == Kind::Kitti) return byFrame(observation);
   if (choice_.kind == Kind::RobotPose) {
     for (const auto& other : entry.observations) {
       const auto* robot = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(other.get());
       if (robot != nullptr && robot->sensorLabel == choice_.argument) return robot->pose.mean;
     }
   }
+  return byTime(observation);
+}
+
+std::optional<mrpt::poses::CPose3D> PoseSource::byFrame(
+    const mrpt::obs::CObservation& observation) {
+  const std::optional<std::size_t> frame =
+      frames_ ? frames_->of(observation) : next_index_[observation.sensorLabel]++;
+  if (!frame || *frame >= by_index_.size()) return std::nullopt;
+  return by_index_[*frame];
+}
+
+std::optional<mrpt::poses::CPose3D> PoseSource::byTime(const mrpt::obs::CObservation& observation) {
   const auto time = detail::secondsOf(observation.timestamp);
-  return time ? track_.at(*time) : std::nullopt;
+  if (!time) return std::nullopt;
+  if (!observed_) observed_ = PoseGap{*time, *time};
+  observed_ = PoseGap{std::min(observed_->before, *time), std::max(observed_->after, *time)};
+  const auto last = last_time_.find(observation.sensorLabel);
+  if (last != last_time_.end() && *time > last->second) spacings_.push_back(*time - last->second);
+  last_time_[observation.sensorLabel] = *time;
+
+  const auto pose = track_.at(*time);
+  const auto gap = track_.gapAt(*time);
+  if (gap)
+    (pose ? interpolated_ : refused_).add(*gap);
+  else if (!pose)
+    ++outside_;
+  return pose;
+}
+
+void PoseSource::Gaps::add(const PoseGap& gap) {
+  ++observations;
+  if (gap.length() > longest.length()) longest = gap;
+}
+
+/// Median; 0 if there are no two of one sensor.
+double PoseSource::spacingOfObservations() const {
+  if (spacings_.empty()) return 0;
+  std::vector<double> spacings = spacings_;
+  const auto median = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+  std::nth_element(spacings.begin(), median, spacings.end());
+  return *median;
+}
+
+std::vector<std::string> PoseSource::doubts() const {
+  constexpr double kWideGap = 10;  // in distances of observations
+  constexpr double kAlwaysPlausible = 1;
+  std::vector<std::string> doubts;
+  const auto span = [](const PoseGap& gap) {
+    return seconds(gap.before) + " to " + seconds(gap.after);
+  };
+  if (refused_.observations > 0)
+    doubts.push_back(std::to_string(refused_.observations) +
+                     " observations have no pose, as they lie between poses that are too far apart "
+                     "in time (the longest gap: " +
+                     span(refused_.longest) + " s)");
+  const double spacing = spacingOfObservations();
+  if (spacing > 0 && interpolated_.longest.length() > std::max(kAlwaysPlausible, kWideGap * spacing))
+    doubts.push_back("poses are interpolated across gaps of up to " +
+                     seconds(interpolated_.longest.length()) + " s (" +
+                     span(interpolated_.longest) + " s), while observations are " +
+                     seconds(spacing) + " s apart");
+  if (outside_ > 0 && observed_ && !track_.empty()) {
+    const PoseGap poses{track_.poses().begin()->first, track_.poses().rbegin()->first};
+    doubts.push_back(std::to_string(outside_) +
+                     " observations lie outside of the time of the poses: these are from " +
+                     span(poses) + " s, the observations from " + span(*observed_) + " s" +
+                     unitHint(poses, *observed_));
+  }
+  return doubts;
 }
 
 }  // namespace csom

@@ -269,7 +269,10 @@ bool RawlogReader::readEntry(RawlogEntry& entry) {
 
 /// Logs may hold objects of any class; those that say nothing about the world are passed over.
 bool RawlogReader::accept(const CSerializable::Ptr& object, RawlogEntry& entry) const {
-  if (std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object)) return false;
+  if (const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object)) {
+    entry.comment = comment->text;
+    return false;
+  }
   if (const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object)) {
     entry.observations.push_back(observation);
     return true;

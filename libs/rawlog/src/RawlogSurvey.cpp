@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A first reading of a log: how long it is and which poses it holds.
+#include <csom/core/Error.h>
 #include <csom/io/TextParser.h>
+#include <csom/maps/PointExtractor.h>
 #include <csom/rawlog/RawlogSurvey.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
@@ -8,6 +10,7 @@
 #include <filesystem>
 
 #include "ExternalFiles.h"
+#include "FrameNumbers.h"
 #include "MrptText.h"
 #include "RegisteredScans.h"
 
@@ -23,6 +26,8 @@ void addPose(RawlogSurvey& survey, PoseTrack& track, const mrpt::Clock::time_poi
 void surveyObservation(RawlogSurvey& survey, const mrpt::obs::CObservation& observation) {
   ++survey.observations;
   if (detail::isScan3D(observation)) ++survey.scans_3d[observation.sensorLabel];
+  if (findPointExtractor(observation) != nullptr || detail::isImage(observation))
+    ++survey.sensors[observation.sensorLabel];
   if (const auto* robot = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation)) {
     addPose(survey, survey.robot_poses[robot->sensorLabel], robot->timestamp, robot->pose.mean);
   } else if (const auto* wheels =
@@ -54,6 +59,15 @@ void surveyFiles(RawlogSurvey& survey, std::size_t entry,
   }
 }
 
+void addFrames(detail::FrameNumbers& frames, const std::string& comment, const std::string& file,
+               std::size_t entry) {
+  try {
+    frames.addComment(comment);
+  } catch (const std::exception& error) {
+    throw FileError(file, "entry " + std::to_string(entry) + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 RawlogSurvey surveyRawlog(const std::string& file) {
@@ -61,8 +75,10 @@ RawlogSurvey surveyRawlog(const std::string& file) {
   RawlogSurvey survey;
   survey.file = file;
   survey.is_simplemap = reader.isSimpleMap();
+  auto frames = std::make_shared<detail::FrameNumbers>();
   while (const auto entry = reader.next()) {
     survey.has_actions = survey.has_actions || entry->action;
+    addFrames(*frames, entry->comment, file, entry->index);
     for (const auto& observation : entry->observations) {
       surveyObservation(survey, *observation);
       surveyFiles(survey, entry->index, *observation);
@@ -70,6 +86,7 @@ RawlogSurvey surveyRawlog(const std::string& file) {
     if (entry->key_frame_pose) surveyKeyFrame(survey, *entry);
   }
   survey.end = reader.end();
+  if (!frames->empty()) survey.frames = frames;
   return survey;
 }
 

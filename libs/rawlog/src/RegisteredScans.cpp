@@ -4,8 +4,10 @@
 
 #include <csom/maps/PointExtractor.h>
 #include <csom/rawlog/Deskew.h>
+#include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRotatingScan.h>
+#include <mrpt/obs/CObservationStereoImages.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <chrono>
@@ -42,6 +44,11 @@ bool isScan3D(const mrpt::obs::CObservation& observation) {
   return dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(&observation) != nullptr ||
          dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation) != nullptr ||
          dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation) != nullptr;
+}
+
+bool isImage(const mrpt::obs::CObservation& observation) {
+  return dynamic_cast<const mrpt::obs::CObservationImage*>(&observation) != nullptr ||
+         dynamic_cast<const mrpt::obs::CObservationStereoImages*>(&observation) != nullptr;
 }
 
 void RegisteredScans::add(const mrpt::obs::CObservation& observation, PoseTrack& track) {

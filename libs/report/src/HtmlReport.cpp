@@ -192,14 +192,31 @@ void writeRejects(std::ostream& page, const RunRecord& record) {
     list(total.rejected[i], inWords(static_cast<RejectReason>(i)));
   const CameraPointCounts cameras =
       record.camera_labels ? record.camera_labels->points : CameraPointCounts{};
-  list(cameras.unseenAndDropped(), "were seen by no camera, or not properly");
+  list(cameras.unseenAndDropped(), "were hidden from the camera, or at a label border");
   list(cameras.low_confidence, "had a class that is less sure than <code>min_confidence</code>");
-  list(record.label_rejects.ignored + cameras.ignored, "had a label that the label set ignores");
-  list(record.label_rejects.unknown + cameras.unknown,
-       "had a label that the label set does not know");
+  list(record.label_rejects.ignored + cameras.ignoredAndDropped(), "had a label that the label set ignores");
+  list(record.label_rejects.unknown + cameras.unknownAndDropped(),
+       "had a label that the label set does not know, or that means free");
   list(record.label_rejects.missing, "had no label");
   list(record.label_rejects.ambiguous, "had several labels");
   page << "</ul>\n";
+}
+
+void writeKept(std::ostream& page, const RunRecord& record) {
+  const std::size_t outside =
+      record.camera_labels ? record.camera_labels->points.outsideAndDropped() : 0;
+  if (outside > 0)
+    page << "<p>" << formatCount(outside, "point")
+         << " outside of the view of all cameras " << (outside == 1 ? "was" : "were")
+         << " left out, as <code>outside_view = drop</code> has it: what lies there is missing in "
+            "the map.</p>\n";
+  if (record.kept_unlabelled > 0)
+    page << "<p>" << formatCount(record.kept_unlabelled, "point")
+         << " without a usable label of " << (record.kept_unlabelled == 1 ? "its" : "their")
+         << " own went into the map as the class of unlabelled points.</p>\n";
+  if (record.no_returns > 0)
+    page << "<p>" << formatCount(record.no_returns, "beam")
+         << " hit nothing (range 0, or beyond what the sensor measures).</p>\n";
 }
 
 void writeRefused(std::ostream& page, const RunRecord& record) {
@@ -266,6 +283,7 @@ std::string htmlReport(const RunRecord& record, const MapDocument& document,
   writeTiming(page, record);
   page << "<h2>What was left out</h2>\n";
   writeRejects(page, record);
+  writeKept(page, record);
   writeRefused(page, record);
   writeWarnings(page, record.warnings);
   writeOrigin(page, record, figures);

@@ -75,8 +75,8 @@ Json scanJson(const RunScan& scan) {
 }
 
 void addCameraRejects(Json& rejects, const CameraPointCounts& points) {
-  rejects["unknown-label"] = rejects["unknown-label"].get<std::size_t>() + points.unknown;
-  rejects["ignored-label"] = rejects["ignored-label"].get<std::size_t>() + points.ignored;
+  rejects["unknown-label"] = rejects["unknown-label"].get<std::size_t>() + points.unknownAndDropped();
+  rejects["ignored-label"] = rejects["ignored-label"].get<std::size_t>() + points.ignoredAndDropped();
   rejects["not-seen-by-camera"] = points.unseenAndDropped();
   rejects["low-confidence"] = points.low_confidence;
 }
@@ -86,7 +86,10 @@ Json totalsJson(const RunRecord& record) {
   Json json = {{"observations_read", record.observations_read},
                {"observations_inserted", record.scans.size()},
                {"points", pointsRead(record)},
-               {"rejected", pointsRejected(record)}};
+               {"rejected", pointsRejected(record)},
+               {"kept_unlabelled", record.kept_unlabelled},
+               {"no_returns", record.no_returns}};
+  if (record.camera_labels) json["outside_view"] = record.camera_labels->points.outsideAndDropped();
   Json rejects = rejectsJson(total);
   rejects["no-label"] = record.label_rejects.missing;
   rejects["unknown-label"] = record.label_rejects.unknown;
@@ -244,7 +247,8 @@ std::size_t pointsRead(const RunRecord& record) {
 }
 
 std::size_t pointsRejected(const RunRecord& record) {
-  return totals(record).rejectedTotal() + droppedForLabel(record);
+  return totals(record).rejectedTotal() + record.label_rejects.total() +
+         (record.camera_labels ? record.camera_labels->points.rejected() : 0);
 }
 
 ImageCounts totalImages(const CameraLabels& labels) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // run.json → run record.
+#include <csom/io/InputFile.h>
 #include <csom/report/RunRecordReader.h>
 
 #include <algorithm>
@@ -125,12 +126,14 @@ void readRejects(const JsonFields& run, RunRecord& record) {
   const JsonFields rejects = totals.object("rejects");
   const CameraPointCounts cameras =
       record.camera_labels ? record.camera_labels->points : CameraPointCounts{};
+  record.kept_unlabelled = totals.count("kept_unlabelled");
+  record.no_returns = totals.count("no_returns");
   record.label_rejects.missing = rejects.count("no-label");
   record.label_rejects.ambiguous = rejects.count("several-labels");
   record.label_rejects.unknown =
-      difference(run, "rejects.unknown-label", rejects.count("unknown-label"), cameras.unknown);
+      difference(run, "rejects.unknown-label", rejects.count("unknown-label"), cameras.unknownAndDropped());
   record.label_rejects.ignored =
-      difference(run, "rejects.ignored-label", rejects.count("ignored-label"), cameras.ignored);
+      difference(run, "rejects.ignored-label", rejects.count("ignored-label"), cameras.ignoredAndDropped());
 
   ScanReport of_scans;
   for (const RunScan& scan : record.scans) of_scans += scan.record.report;
@@ -204,7 +207,10 @@ RunRecord readRecord(const JsonFields& run, const MapDocument& document) {
   return record;
 }
 
+/// Nothing if it is no regular file: pictures may be missing.
 std::vector<std::uint8_t> bytesOf(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -227,9 +233,10 @@ SavedRun runFromJson(const std::string& text, const std::string& file,
 SavedRun loadRun(const std::string& folder, const MapDocument& document) {
   const std::filesystem::path base(folder);
   const std::string file = (base / "run.json").string();
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw FileError(file, "cannot be read; csom map writes it");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  std::error_code error;
+  if (!std::filesystem::exists(file, error))
+    throw FileError(file, "no such file; csom map writes it");
+  const std::string text = detail::readFile(file);  // a pipe or a device would never end
   SavedRun run = runFromJson(text, file, document);
   RunRecord& record = run.record;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PNG files named by what they were made from.
 #include <csom/core/Error.h>
+#include <csom/core/TemporaryPath.h>
 #include <csom/vision/LabelCache.h>
 #include <fcntl.h>
 #include <unistd.h>
@@ -79,9 +80,11 @@ void writeAtOnce(const std::string& file, const std::vector<std::uint8_t>& bytes
     throw FileError(file, std::string("cannot be written: ") + std::strerror(errno));
   };
   std::string beside;
+  std::unique_ptr<TemporaryPath> temporary;
   int descriptor = -1;
   for (int attempt = 0; descriptor < 0; ++attempt) {
     beside = file + ".tmp" + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+    temporary = std::make_unique<TemporaryPath>(beside);
     descriptor = ::open(beside.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno != EEXIST) fail();
   }

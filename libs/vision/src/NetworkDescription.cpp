@@ -122,15 +122,18 @@ class Section {
 };
 
 YAML::Node parse(const std::string& file) {
+  std::error_code error;
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error))
+    throw ConfigError(file + ": is no regular file");
   std::ostringstream text;
   std::ifstream stream(file);
-  if (fs::is_directory(file) || !(text << stream.rdbuf()))
+  if (!(text << stream.rdbuf()))
     throw ConfigError(file + ": cannot be read, or is empty; give the description of a network");
   try {
     return YAML::Load(text.str());
-  } catch (const YAML::Exception& error) {
-    throw ConfigError(file + ":" + std::to_string(error.mark.line + 1) +
-                      ": no valid YAML: " + error.msg);
+  } catch (const YAML::Exception& wrong) {
+    throw ConfigError(file + ":" + std::to_string(wrong.mark.line + 1) +
+                      ": no valid YAML: " + wrong.msg);
   }
 }
 

@@ -22,6 +22,10 @@ inline bool isAddressable(const ChunkIndex& c) {
   return inside(c.x) && inside(c.y) && inside(c.z);
 }
 
+/// The voxels that these hold.
+constexpr std::int32_t kFirstVoxelIndex = -kMaxChunkIndex * kChunkSide;
+constexpr std::int32_t kLastVoxelIndex = kMaxChunkIndex * kChunkSide + kChunkSide - 1;
+
 /// Points stay 1024 voxels away from the last chunk, so that kernels around them need no check.
 constexpr std::int32_t kMaxVoxelIndex = kMaxChunkIndex * kChunkSide - 1024;
 
@@ -64,7 +68,16 @@ class Grid {
     const double limit = resolution_ * kMaxVoxelIndex;
     return point.cwiseAbs().maxCoeff() <= limit && point.allFinite();
   }
-  /// Requires contains(point).
+  /// True if there is a voxel at a point, although no point of a scan may lie there; false for NaN and
+  /// infinities.
+  bool isAddressable(const Eigen::Vector3d& point) const {
+    for (const double coordinate : point) {
+      const double voxel = std::floor(coordinate / resolution_);
+      if (!(voxel >= kFirstVoxelIndex && voxel <= kLastVoxelIndex)) return false;
+    }
+    return true;
+  }
+  /// Requires contains(point) or isAddressable(point).
   VoxelIndex voxelAt(const Eigen::Vector3d& point) const {
     return {indexOf(point.x()), indexOf(point.y()), indexOf(point.z())};
   }

@@ -15,6 +15,9 @@ namespace csom {
 
 using Color = std::array<std::uint8_t, 3>;  ///< red, green, blue
 
+/// Name of the class of points that hit something of which nobody tells what it is.
+constexpr char kUnlabelledClass[] = "unlabelled";
+
 struct LabelClass {
   ClassId id = 0;
   std::string name;

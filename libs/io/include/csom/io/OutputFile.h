@@ -2,7 +2,10 @@
 // A file that appears complete or not at all.
 #pragma once
 
+#include <csom/core/TemporaryPath.h>
+
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -10,7 +13,8 @@ namespace csom {
 
 /// Writes to a temporary file in the folder of the target, which commit() flushes to the disk and
 /// renames to the target. Without commit(), or after an error, the temporary file is removed and
-/// whatever stood at the target before is untouched. A symbolic link is followed.
+/// whatever stood at the target before is untouched; so it is when a signal ends the process. A
+/// symbolic link is followed.
 ///
 /// A target that exists and is no regular file (a pipe, /dev/stdout) is written directly.
 ///
@@ -39,6 +43,7 @@ class OutputFile {
 
   std::string target_;  ///< links resolved
   std::string path_;
+  std::unique_ptr<TemporaryPath> temporary_;  ///< null if written directly, or once committed
   std::FILE* stream_ = nullptr;
   bool committed_ = false;
 };

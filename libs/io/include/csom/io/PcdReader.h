@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Point clouds in PCD files, version 0.7, ascii and binary.
+// Point clouds in PCD files up to version 0.7: ascii, binary, binary_compressed.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,16 +18,16 @@ enum class PcdRowPolicy {
   IgnoreExtra,  ///< surplus columns are ignored and the row counted; too short a row is left out
 };
 
-/// Label of a point whose `label` is no integer in 0 … 2³²−2. No label set knows it.
+/// Label of a point whose label is no integer in 0 … 2³²−2. No label set knows it.
 constexpr std::uint32_t kNoPcdLabel = 0xffffffffu;
 
 struct PcdCloud {
   /// As they stand in the file [m]; NaN where the file has NaN.
   std::vector<Eigen::Vector3d> points;
-  std::vector<std::uint32_t> labels;  ///< one a point, or empty if there is no field `label`
-  std::vector<float> intensities;     ///< one a point, or empty if there is no field `intensity`
-  bool has_labels = false;            ///< there is a field `label`, if perhaps no point
-  bool has_intensities = false;       ///< there is a field `intensity`, if perhaps no point
+  std::vector<std::uint32_t> labels;  ///< one a point, or empty if there is no field of labels
+  /// Name of the field of labels as the file spells it; empty if there is none.
+  std::string label_field;
+  std::vector<std::string> fields;  ///< names of all fields, in order, without padding (`_`)
 
   /// VIEWPOINT: pose of the sensor in the frame of the points.
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
@@ -40,9 +40,11 @@ struct PcdCloud {
   std::size_t trailing_bytes = 0;        ///< binary: bytes after the last point, not read
 };
 
-/// Reads fields x, y, z and, if there, `label` and `intensity`, in any order, of any type and size,
-/// among any others. `DATA binary_compressed` is refused. Nothing in the header is believed before
-/// it is checked against the size of the file. Throws FileError naming file and line.
-PcdCloud readPcd(const std::string& file, PcdRowPolicy policy);
+/// Reads the fields x, y, z and, if there, the one of labels, in any order, of any type and size,
+/// among any others. Names are compared exactly, or else without regard to case. Nothing in the
+/// header is believed before it is checked against the size of the file. Throws FileError naming
+/// file and line.
+PcdCloud readPcd(const std::string& file, PcdRowPolicy policy,
+                 const std::string& label_field = "label");
 
 }  // namespace csom

@@ -2,12 +2,15 @@
 // A folder of its own that goes when it is left.
 #pragma once
 
+#include <csom/core/TemporaryPath.h>
+
 #include <filesystem>
+#include <memory>
 #include <string>
 
 namespace csom {
 
-/// Under TMPDIR, else /tmp; removed with all that is in it.
+/// Under TMPDIR, else /tmp; removed with all that is in it, also if a signal ends the process.
 class TemporaryFolder {
  public:
   /// Throws FileError.
@@ -20,6 +23,7 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path path_;
+  std::unique_ptr<TemporaryPath> temporary_;
 };
 
 }  // namespace csom

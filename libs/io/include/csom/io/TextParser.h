@@ -40,7 +40,8 @@ bool parseNumber(std::string_view text, Number& value) {
   return result.ec == std::errc() && result.ptr == end;
 }
 
-/// Text from a file as it may be shown on a terminal: its control characters become '?'.
+/// Text from a file as it may be shown on a terminal: control characters, those that change the
+/// direction of writing or cannot be seen, and bytes that are no UTF-8 become '?'.
 std::string printable(std::string_view text);
 
 /// A word from a file for an error message: printable, shortened, and in quotation marks.

@@ -39,6 +39,7 @@ struct InsertionStatistics {
   std::map<std::string, std::size_t> damaged;      ///< by class name
   std::map<std::string, std::string> why_damaged;  ///< by class name: reason of the first one
   LabelCounts labels;                              ///< sum over all observations
+  std::size_t no_returns = 0;                      ///< beams that hit nothing (see SensorPoints)
   ScanReport unused;                               ///< sum over the scans without_points counts
 };
 
@@ -114,6 +115,7 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
                                   const LabelSet& labels = LabelSet::occupancy());
   /// Copies share the voxels until one of them is written to, and observations that wait.
   CSemanticContinuousMap(const CSemanticContinuousMap& other);
+  /// Keeps the observer of labelled scans that this map has; see setLabelledScanObserver().
   CSemanticContinuousMap& operator=(const CSemanticContinuousMap& other);
 
   const SemanticMap& map() const { return map_; }
@@ -128,6 +130,9 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   /// Loads the networks of labelOptions now instead of at the first image. Throws ConfigError or
   /// FileError for what is wrong with them.
   void openLabelSources();
+  /// Uses the networks, and the label cache, of a map that has the same label sources: what has been
+  /// loaded there is not loaded again. Throws std::invalid_argument if they are not the same.
+  void takeLabelSourcesOf(const CSemanticContinuousMap& other);
   /// Called for every scan that cameras have labelled, from now on; not by copies.
   void setLabelledScanObserver(LabelledScanObserver observer);
   /// Inserts the scans that still wait for images, with what labels there are. To be called when no
@@ -228,6 +233,7 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   /// Both return true if any point was used, and note in last_insertion_ where none was.
   bool insertScans(const std::vector<AdaptedScan>& adapted);
   bool insertScan(const AdaptedScan& adapted);
+  void insertFinished(const mrpt::obs::CObservation& observation);
   void noteDamaged(const mrpt::obs::CObservation& observation, const std::string& why);
 
   SemanticMap map_;
@@ -254,8 +260,9 @@ void visitInsertionOptions(InsertionOptionsLike&& o, Visitor&& visitor) {
           "the label set (intensity); its colour is exactly that of a class (color). Labels of "
           "pixels are used whenever an observation has them");
   visitor("unlabelled_class", o.unlabelled_class, "",
-          "class of points without a label, or drop; without this key the class `occupied` or else "
-          "`unlabelled`, if the label set has it, else drop");
+          "class of points without a label, or with one that is no class of a point, or drop; "
+          "unlabelled is added to a label set that lacks it; without this key the class `occupied` "
+          "or else `unlabelled`, if the label set has it, else drop");
   visitor("scan_2d_class", o.scan_2d_class, "",
           "class of all rays of 2-D laser scans, or drop; without this key as unlabelled_class");
 }

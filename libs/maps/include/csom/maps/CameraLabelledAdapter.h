@@ -53,6 +53,9 @@ class CameraLabelledAdapter : public ObservationAdapter {
 
   /// Loads the networks now rather than at the first image. Throws FileError.
   void loadNetworks();
+  /// Uses the networks of another adapter, which has the same label sources. Throws
+  /// std::invalid_argument if they are not the same.
+  void takeNetworksOf(const CameraLabelledAdapter& other);
   /// Called with every scan that had an image. Clones have no observer.
   void setObserver(LabelledScanObserver observer);
 
@@ -64,7 +67,7 @@ class CameraLabelledAdapter : public ObservationAdapter {
   std::vector<AdaptedScan> takeFinished() override;
   const CameraStatistics* cameraStatistics() const override;
   void writeTo(ByteWriter& out) const override;
-  void readFrom(ByteReader& in) override;
+  void readFrom(ByteReader& in, std::uint8_t version) override;
 
  private:
   explicit CameraLabelledAdapter(std::unique_ptr<CameraLabelling> labelling);

@@ -5,6 +5,7 @@
 #include <csom/maps/LabelOptions.h>
 #include <csom/vision/PointLabelling.h>
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@ struct CameraStatistics {
     std::size_t images_refused = 0;
     std::size_t network_runs = 0;
     std::size_t from_cache = 0;
+    /// Optical axis of the last image, in the frame of the robot; 0 if there was none.
+    std::array<double, 3> looks_along{0, 0, 0};
   };
   std::vector<Source> sources;  ///< the cameras, in the order of the configuration
 
@@ -36,7 +39,10 @@ struct CameraStatistics {
   double network_seconds = 0;    ///< networks alone
   double labelling_seconds = 0;  ///< projection, visibility, sampling of labels
 
+  /// Points that the map never got.
   std::size_t pointsDropped() const;
+  /// Those of them that some camera has in its view.
+  std::size_t pointsRejected() const;
 };
 
 }  // namespace csom

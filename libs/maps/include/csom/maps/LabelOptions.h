@@ -29,15 +29,15 @@ struct LabelSource {
 std::string toString(LabelSource::Kind value);
 void parse(const std::string& key, const std::string& text, LabelSource::Kind& value);
 
-/// What becomes of points that no camera sees: left out, as in the paper, or kept as occupied
-/// without a label.
+/// What becomes of points that no camera sees, or that show nothing with a class: left out, as in the
+/// paper, or kept as occupied without a label, so that what stands beside the robot is in the map.
 enum class OutsideView { Drop, Unlabelled };
 
 struct LabelOptions {
   std::vector<LabelSource> sources;
   PointLabellingOptions points;
   double max_time_offset = 0.1;  ///< between a scan and the images that label it [s]
-  OutsideView outside_view = OutsideView::Drop;
+  OutsideView outside_view = OutsideView::Unlabelled;
   std::string label_cache;  ///< folder for what networks said; empty: none
 
   bool usesCameras() const;
@@ -59,9 +59,9 @@ void visitLabelOptions(LabelOptionsLike& o, Visitor&& visitor) {
   visitor("max_time_offset", o.max_time_offset, "s", "between a scan and the images that label it");
   visitor(
       "outside_view", o.outside_view, "",
-      "points that no camera sees are left out (drop), as in the paper, or become occupied by a "
-      "class `unlabelled`, which is added to the label set and which any label outvotes "
-      "(unlabelled)");
+      "points that no camera sees, or not properly, become occupied by a class `unlabelled`, which "
+      "is added to the label set and which any label outvotes (unlabelled), or are left out (drop), "
+      "as in the paper");
   visitor("visibility", o.points.visibility, "",
           "points that something nearer hides from the camera are rejected");
   visitor("visibility_margin", o.points.visibility_margin, "m",

@@ -20,12 +20,13 @@ std::string toString(PointLabels value);
 /// Throws OptionError with the accepted words.
 void parse(const std::string& key, const std::string& text, PointLabels& value);
 
-/// A label as found: the class of a point, or why it has none.
+/// A label as found: the class of a point, or why it has none. A point is where a beam was thrown
+/// back, so the class is never kFreeClass: a label that means free says nothing about it.
 struct PointLabel {
   enum class Kind : std::uint8_t {
     Class,
     Missing,    ///< the point carries no label
-    Unknown,    ///< a raw id, colour or name that the label set does not know
+    Unknown,    ///< a raw id, colour or name that is no class of the label set, or means free
     Ignored,    ///< a raw id that the label set ignores
     Ambiguous,  ///< a pixel with several labels
   };
@@ -33,15 +34,17 @@ struct PointLabel {
   ClassId id = kFreeClass;
 };
 
-/// Points by what became of their labels. Missing labels are replaced by the class for unlabelled
-/// points if there is one; points with any other fault are dropped.
+/// Points by what became of their labels. Something is there, whatever it may be: a point without
+/// a class of its own receives the class for unlabelled points if there is one, unless the label set
+/// says that it is not to be used. All others are dropped.
 struct LabelCounts {
-  std::size_t labelled = 0;    ///< had a class of their own
-  std::size_t unlabelled = 0;  ///< had no label and received the class for unlabelled points
-  std::size_t missing = 0;     ///< had no label and were dropped
-  std::size_t unknown = 0;
-  std::size_t ignored = 0;
-  std::size_t ambiguous = 0;
+  std::size_t labelled = 0;      ///< had a class of their own
+  std::size_t unlabelled = 0;    ///< had no label and received the class for unlabelled points
+  std::size_t kept_unknown = 0;  ///< had a label of no use and received the same class
+  std::size_t missing = 0;       ///< had no label and were dropped
+  std::size_t unknown = 0;       ///< had a label that is no class of a point and were dropped
+  std::size_t ignored = 0;       ///< the label set says so
+  std::size_t ambiguous = 0;     ///< had several labels and were dropped
 
   std::size_t dropped() const { return missing + unknown + ignored + ambiguous; }
   LabelCounts& operator+=(const LabelCounts& other);

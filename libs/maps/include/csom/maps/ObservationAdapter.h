@@ -8,6 +8,7 @@
 #include <mrpt/obs/CObservation.h>
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -22,6 +23,7 @@ struct CameraStatistics;
 struct AdaptedScan {
   Scan scan;
   LabelCounts labels;
+  std::size_t no_returns = 0;  ///< see SensorPoints
   double timestamp = 0;  ///< seconds since 1970 (UTC); 0 if unknown
   std::string sensor_label;
   std::string observation_class;  ///< "CObservationVelodyneScan", …
@@ -49,9 +51,10 @@ class ObservationAdapter {
   /// Null if it uses no cameras. Valid until the next call.
   virtual const CameraStatistics* cameraStatistics() const { return nullptr; }
   /// What it keeps, as bytes and back: MRPT copies maps by streams. readFrom() is for an adapter of
-  /// the same configuration and throws std::runtime_error if the bytes are not those of writeTo().
+  /// the same configuration and throws std::runtime_error if the bytes are not those of writeTo()
+  /// in that version of the map's stream.
   virtual void writeTo(ByteWriter& out) const = 0;
-  virtual void readFrom(ByteReader& in) = 0;
+  virtual void readFrom(ByteReader& in, std::uint8_t version) = 0;
 };
 
 /// The adapter for observations that carry their labels themselves, point by point or pixel by
@@ -64,7 +67,7 @@ class SelfLabelledAdapter : public ObservationAdapter {
   std::vector<AdaptedScan> flush() override { return {}; }
   std::unique_ptr<ObservationAdapter> clone() const override;
   void writeTo(ByteWriter& out) const override;
-  void readFrom(ByteReader& in) override;
+  void readFrom(ByteReader& in, std::uint8_t version) override;
 };
 
 /// Seconds since 1970; 0 if the observation has no time stamp.

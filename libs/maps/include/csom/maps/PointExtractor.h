@@ -12,16 +12,27 @@
 namespace csom {
 
 /// Points in the frame of the sensor, with one label each.
+///
+/// Sensors write down a beam that nothing has thrown back as well: as a range of 0, below 0 or beyond
+/// what they can measure, or as the point (0,0,0). Such a beam is no point, whatever `min_range` is.
 struct SensorPoints {
   mrpt::poses::CPose3D sensor_pose;     ///< on the robot
-  std::vector<Eigen::Vector3f> points;  ///< [m]; may hold non-finite values
+  std::vector<Eigen::Vector3f> points;  ///< [m]; may hold non-finite values, but never (0,0,0)
   std::vector<PointLabel> labels;       ///< as many as points
+  /// Beams that hit nothing and that the observation lists all the same. Velodyne packets are not
+  /// counted: MRPT makes points of those beams alone that hit something.
+  std::size_t no_returns = 0;
 
   void reserve(std::size_t count) {
     points.reserve(count);
     labels.reserve(count);
   }
+  /// (0,0,0) counts as no return.
   void add(const Eigen::Vector3f& point, const PointLabel& label) {
+    if (point == Eigen::Vector3f::Zero()) {
+      ++no_returns;
+      return;
+    }
     points.push_back(point);
     labels.push_back(label);
   }

@@ -28,6 +28,7 @@ struct ImportSummary {
   std::size_t scans = 0;
   std::size_t points = 0;
   std::size_t images = 0;
+  std::string labels;                 ///< where those of the points come from, in plain words
   std::vector<std::string> warnings;  ///< one line each
 };
 
@@ -42,6 +43,11 @@ namespace detail {
 /// Files of `folder` that end in `extension` (".bin"), in natural order. Throws FileError if there
 /// is no such folder or no such file in it.
 std::vector<std::string> filesIn(const std::string& folder, const std::string& extension);
+
+/// The numbers that files are named by ("000012.bin" → 12): files of one frame have one number, and
+/// its times and poses are in the lines of that number. Throws FileError about the first file whose
+/// name is no number, or is that of another one ("12.bin" and "012.bin").
+std::vector<std::size_t> numbersOfFiles(const std::vector<std::string>& files);
 
 }  // namespace detail
 }  // namespace csom

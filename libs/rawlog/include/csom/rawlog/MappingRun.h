@@ -91,8 +91,8 @@ MappingResult mapLogs(const MappingRequest& request,
                       const std::function<void(const MappingProgress&)>& on_progress = {},
                       const std::optional<CheckpointRequest>& checkpoints = std::nullopt);
 
-/// The request that the run had which left this state. Throws FileError, about `file`, if it is no
-/// such state.
+/// The request that the run had which left this state, but for the label cache: where files are
+/// written is not for a file to say. Throws FileError, about `file`, if it is no such state.
 MappingRequest requestOf(const MapStore::State& state, const std::string& file);
 
 }  // namespace csom

@@ -27,7 +27,7 @@ struct PoseChoice {
     Odometry,   ///< actions of the log if it has any, else its CObservationOdometry
     RobotPose,  ///< CObservationRobotPose of one sensor label
     Tum,        ///< file: `timestamp x y z qx qy qz qw` a line
-    Kitti,      ///< file: 3×4 row-major matrix a line, one line a scan
+    Kitti,      ///< file: 3×4 row-major matrix a line, one line a frame
     SimpleMap,  ///< key frames of a simplemap file, by their observations' time stamps
     Icp,        ///< registration of the 3-D scans of one sensor label
     KeyFrames   ///< the log is a simplemap: its own poses
@@ -49,7 +49,8 @@ struct PoseChoice {
 class PoseSource {
  public:
   /// Throws ConfigError if the log has no such poses (or several labels of them and none is
-  /// chosen), FileError for a file of poses that is wrong.
+  /// chosen) or if a KITTI file has another number of poses than the log has scans, FileError for a
+  /// file of poses that is wrong.
   PoseSource(const std::optional<PoseChoice>& choice, const RawlogSurvey& survey);
 
   ~PoseSource();
@@ -65,10 +66,11 @@ class PoseSource {
   bool knows(const RawlogEntry& entry) const;
 
   /// Nothing if there is no pose for this observation: it lies outside the time span of the poses,
-  /// has no time stamp, or comes after the last line of a KITTI file. Poses in time are
+  /// lies in a gap of them that is too long (see PoseTrack), or has no time stamp. Poses in time are
   /// interpolated (positions linearly, rotations by SLERP); a pose of exactly the time of the
-  /// observation, or in its sensory frame, is taken as it is. With a KITTI file the n-th
-  /// observation of every sensor label has the n-th pose: call once for each observation.
+  /// observation, or in its sensory frame, is taken as it is. With a KITTI file an observation has
+  /// the pose of its frame, if the log says which frames it holds, else the n-th observation of every
+  /// sensor label has the n-th pose: call once for each observation.
   std::optional<mrpt::poses::CPose3D> poseOf(const RawlogEntry& entry,
                                              const mrpt::obs::CObservation& observation);
 
@@ -80,18 +82,39 @@ class PoseSource {
   std::optional<RegistrationReport> registration() const;
   const PoseTrack& track() const { return track_; }
 
+  /// What is to be doubted of the poses that were asked for, a line each: none at the time of some
+  /// observations, with both spans of time; gaps, with both times.
+  std::vector<std::string> doubts() const;
+
  private:
+  /// Observations between two poses that are far apart.
+  struct Gaps {
+    std::size_t observations = 0;
+    PoseGap longest;
+    void add(const PoseGap& gap);
+  };
   static PoseChoice defaultChoice(const RawlogSurvey& survey);
   void useLog(const RawlogSurvey& survey);
-  void useFile();
+  void useFile(const RawlogSurvey& survey);
+  void useKittiFile(const RawlogSurvey& survey);
+  std::optional<mrpt::poses::CPose3D> byFrame(const mrpt::obs::CObservation& observation);
+  std::optional<mrpt::poses::CPose3D> byTime(const mrpt::obs::CObservation& observation);
+  double spacingOfObservations() const;
   void useScans(const RawlogSurvey& survey);
 
   PoseChoice choice_;
   PoseTrack track_;
   bool integrates_actions_ = false;
   mrpt::poses::CPose3D integrated_;
-  std::vector<mrpt::poses::CPose3D> by_index_;
+  std::vector<std::optional<mrpt::poses::CPose3D>> by_index_;  ///< lines of a KITTI file
   std::map<std::string, std::size_t> next_index_;
+  std::shared_ptr<const detail::FrameNumbers> frames_;  ///< null: the n-th scan has the n-th pose
+  Gaps refused_;        ///< too long to interpolate across
+  Gaps interpolated_;   ///< all others
+  std::size_t outside_ = 0;  ///< observations before the first or after the last pose
+  std::optional<PoseGap> observed_;  ///< times of the first and the last observation
+  std::map<std::string, double> last_time_;  ///< by sensor label
+  std::vector<double> spacings_;             ///< of the observations of one label [s]
   std::unique_ptr<detail::RegisteredScans> scans_;  ///< null for other poses
 };
 

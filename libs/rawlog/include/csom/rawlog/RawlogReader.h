@@ -22,6 +22,7 @@ struct RawlogEntry {
   std::vector<mrpt::obs::CObservation::Ptr> observations;
   mrpt::obs::CActionCollection::Ptr action;            ///< null if this is none
   std::optional<mrpt::poses::CPose3D> key_frame_pose;  ///< mean pose; simplemaps only
+  std::string comment;  ///< text of a CObservationComment, which counts as no observation
 };
 
 /// How far a log could be read.

@@ -7,9 +7,14 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <string>
 
 namespace csom {
+
+namespace detail {
+class FrameNumbers;
+}
 
 struct RawlogSurvey {
   std::string file;
@@ -20,6 +25,9 @@ struct RawlogSurvey {
   std::map<std::string, PoseTrack> robot_poses;  ///< by sensor label
   std::map<std::string, PoseTrack> odometry;     ///< CObservationOdometry, by sensor label
   std::map<std::string, std::size_t> scans_3d;   ///< what `--poses icp` takes, by sensor label
+  std::map<std::string, std::size_t> sensors;    ///< scans and images of any kind, by sensor label
+  /// Nothing if the log does not say which frame of a data set its observations are.
+  std::shared_ptr<const detail::FrameNumbers> frames;
   PoseTrack key_frames;            ///< of a simplemap, at the first time stamp of each key frame
   std::size_t invalid_poses = 0;   ///< poses left out: not finite or without a time stamp
   std::size_t external_files = 0;  ///< externalised images and clouds

@@ -44,15 +44,29 @@ struct CameraPointCounts {
   std::size_t low_confidence = 0;  ///< dropped: the best class is not sure enough
   std::size_t ignored = 0;         ///< the label set ignores what the pixel shows
   std::size_t unknown = 0;         ///< the label set does not know what the pixel shows
-  /// Those of outside_view, hidden and at_edge that are in the map all the same, as unlabelled.
+  /// Those without a class that are in the map all the same, as unlabelled: all of them (but
+  /// low_confidence) or none, as the option outside_view has it.
   std::size_t kept_unlabelled = 0;
 
   std::size_t inView() const {
     return labelled + hidden + at_edge + low_confidence + ignored + unknown;
   }
-  std::size_t unseenAndDropped() const { return outside_view + hidden + at_edge - kept_unlabelled; }
+  std::size_t outsideAndDropped() const { return dropped(outside_view); }
+  std::size_t unseenAndDropped() const { return dropped(hidden + at_edge); }
+  std::size_t ignoredAndDropped() const { return dropped(ignored); }
+  std::size_t unknownAndDropped() const { return dropped(unknown); }
+  /// Points that were looked at and have no label. What lies outside of all views was not: nothing is
+  /// wrong with such a point.
+  std::size_t rejected() const {
+    return unseenAndDropped() + low_confidence + ignoredAndDropped() + unknownAndDropped();
+  }
   /// Points that the map never got.
-  std::size_t dropped() const { return unseenAndDropped() + low_confidence + ignored + unknown; }
+  std::size_t dropped() const { return outsideAndDropped() + rejected(); }
+
+ private:
+  std::size_t dropped(std::size_t without_class) const {
+    return kept_unlabelled > 0 ? 0 : without_class;
+  }
 };
 
 /// Where the time went [s].

@@ -71,6 +71,10 @@ struct RunRecord {
   std::vector<RunScan> scans;
   ScanReport unused;           ///< sum over the observations of which no point could be used
   LabelRejects label_rejects;  ///< over all observations
+  /// Points whose own label was missing or of no use, in the map as the class of unlabelled points;
+  /// those that cameras label are in CameraPointCounts and not here.
+  std::size_t kept_unlabelled = 0;
+  std::size_t no_returns = 0;  ///< beams that hit nothing; no points, and not among the rejected
   std::vector<RefusedObservations> refused;
   std::optional<CameraLabels> camera_labels;       ///< nothing if no camera is configured
   std::optional<DeskewCounts> deskew;              ///< nothing if it is switched off
@@ -82,7 +86,8 @@ struct RunRecord {
 
 /// Sum over the scans, and over the observations of which no point could be used.
 ScanReport totals(const RunRecord& record);
-/// All points of the observations that the map takes, and those of them that did not go in.
+/// All points of the observations that the map takes, and those of them that were rejected. Points
+/// outside of all cameras' views may be left out without being rejected.
 std::size_t pointsRead(const RunRecord& record);
 std::size_t pointsRejected(const RunRecord& record);
 
