@@ -121,7 +121,7 @@ TEST_F(EvalTest, RunWritesTablesAndJson) {
   const ProgramResult result = csom({"eval", "run", "P4", "-o", folder_ / "out", "--world", world,
                                      "--methods", "see-csom,see-csom:rvfm=off"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_THAT(result.errors, IsEmpty());
+  EXPECT_THAT(result.errorLines(), IsEmpty());
   EXPECT_EQ(test::readBytes(folder_ / "out/evaluation.md"), result.output);
   EXPECT_THAT(result.output, HasSubstr("| see-csom:rvfm=off |"));
   const auto json = nlohmann::json::parse(test::readBytes(folder_ / "out/evaluation.json"));

@@ -20,7 +20,7 @@ TEST(Import, PcdFilesThatBecomeAMap) {
                                            "-o", folder / "a.rawlog"});
   ASSERT_EQ(run.exit_code, 0) << run.errors;
   EXPECT_THAT(run.output, HasSubstr("a.rawlog: 2 scans, 4 points"));
-  EXPECT_EQ(run.errors, "");
+  EXPECT_THAT(run.errorLines(), testing::IsEmpty());
   ASSERT_EQ(runCsom(folder.path(),
                     {"map", folder / "a.rawlog", "-c", writeConfig(folder), "-o", folder / "out"})
                 .exit_code,

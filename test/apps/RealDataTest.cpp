@@ -98,7 +98,7 @@ TEST_F(RealData, SemanticKittiMapBeatsItsInput) {
     const auto truth = readKittiLabels(sequence + "/labels/" + name + ".label", scan.points.size());
     const auto input =
         readKittiLabels(sequence + "/predictions/" + name + ".label", scan.points.size());
-    const Eigen::Isometry3d world = poses[i] * calibration;
+    const Eigen::Isometry3d world = poses[i].value() * calibration;
     for (std::size_t k = 0; k < scan.points.size(); ++k) {
       const auto right = document.labels.classOfRaw(truth[k]);
       if (right.kind != LabelSet::RawKind::Class) continue;

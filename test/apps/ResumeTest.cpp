@@ -40,8 +40,19 @@ class Resume : public testing::Test {
   std::vector<std::string> command(int logs = 1, const std::string& checkpoint = "0") const {
     std::vector<std::string> words{"map", "-c",        config,         "-o",
                                    out,   "--no-html", "--checkpoint", checkpoint};
-    for (int i = 0; i < logs; ++i) words.push_back(shipped("rawlogs/campus.rawlog"));
+    for (int i = 0; i < logs; ++i) words.push_back(drive(i));
     return words;
+  }
+
+  /// The same drive in files of different content, as no log may be mapped twice: an empty member of
+  /// gzip behind it has another time.
+  std::string drive(int number) const {
+    if (number == 0) return shipped("rawlogs/campus.rawlog");
+    const std::string file = folder / ("drive" + std::to_string(number) + ".rawlog");
+    std::string nothing("\x1f\x8b\x08\0\0\0\0\0\0\x03\x03\0\0\0\0\0\0\0\0\0", 20);
+    nothing[4] = static_cast<char>(number);
+    writeBytes(file, readBytes(shipped("rawlogs/campus.rawlog")) + nothing);
+    return file;
   }
 
   /// The digest of the map of a run that nothing disturbs, in a folder of its own.

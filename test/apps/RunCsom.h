@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -19,10 +20,13 @@ struct ProgramResult {
   std::string output;  ///< standard output
   std::string errors;  ///< standard error
 
+  /// Of standard error, but for those that tell progress: on a slow machine there are some.
   std::vector<std::string> errorLines() const {
+    static const std::regex progress("[a-z ]+ +[0-9]+ %  .*");
     std::vector<std::string> lines;
     std::istringstream text(errors);
-    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    for (std::string line; std::getline(text, line);)
+      if (!std::regex_match(line, progress)) lines.push_back(line);
     return lines;
   }
 };

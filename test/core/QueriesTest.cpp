@@ -102,6 +102,45 @@ TEST(CastRay, HandlesEdgesOfTheQuestion) {
   EXPECT_FALSE(map.castRay(origin, {1, 0, 0}, -1));
 }
 
+TEST(CastRay, B9_TheLastLayersOfTheGridAreReached) {
+  Options options;
+  options.resolution = 0.1;
+  options.method = Method::SCsm;
+  // Points stay away from the last layers, but kernels and other programs may fill them.
+  SemanticMap source(options);
+  Scan scan;
+  scan.points = {{0.05F, 0.05F, 0.05F}};
+  scan.labels = {1};
+  source.insert(scan);
+  const auto chunk = source.chunks().sorted().front();
+  for (const int side : {-1, 1}) {
+    SemanticMap map(options);
+    const ChunkIndex last{side * kMaxChunkIndex, 0, 0};
+    map.addChunkRecord(last, chunk.second->record(), chunk.second->recordSize());
+    const VoxelIndex occupied = voxelOfChunk(last, 0);
+    ASSERT_EQ(map.voxel(occupied).state(), VoxelState::Occupied);
+    const Eigen::Vector3d center = map.grid().center(occupied);
+    EXPECT_EQ(map.at(center).state(), VoxelState::Occupied);
+    for (const Eigen::Vector3d& direction :
+         {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0, 0, 1)}) {
+      const auto hit = map.castRay(center, direction, 10);
+      ASSERT_TRUE(hit) << side << ", " << direction.transpose();
+      EXPECT_EQ(hit->voxel, occupied);
+    }
+    const auto from_inside =
+        map.castRay(center - Eigen::Vector3d(side * 5.0, 0, 0), Eigen::Vector3d(side, 0, 0), 1e9);
+    ASSERT_TRUE(from_inside);
+    EXPECT_EQ(from_inside->voxel, occupied);
+    const auto nearest = map.nearestOccupied(center, 1);
+    ASSERT_TRUE(nearest);
+    EXPECT_EQ(nearest->voxel, occupied);
+    // The ray ends where indices end.
+    EXPECT_FALSE(map.castRay(map.grid().center(voxelOfChunk(last, 511)),
+                             Eigen::Vector3d(side, 1e-9, 0), 1e9));
+  }
+  EXPECT_FALSE(SemanticMap(options).castRay({1e9, 0, 0}, {1, 0, 0}, 10));
+}
+
 TEST(NearestOccupied, IsThatOfBruteForce) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const SemanticMap map = randomMap(seed);

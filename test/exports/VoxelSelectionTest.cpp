@@ -141,5 +141,36 @@ TEST_F(VoxelSelectionTest, RefusesPosesBeyondTheGrid) {
   EXPECT_THROW(resampled(VoxelSelection(map_, {}, far)), ConfigError);
 }
 
+TEST(VoxelsWithCenterIn, B4_ACentreLiesInABoxMadeOfIt) {
+  for (const double resolution : {0.05, 0.1, 0.15, 0.2, 0.3, 0.7, 1.0 / 3}) {
+    const Grid grid(resolution);
+    for (std::int32_t i = -5000; i <= 5000; ++i) {
+      const VoxelIndex index{i, 3 * i, -7 * i};
+      const Eigen::Vector3d center = grid.center(index);
+      const auto box = voxelsWithCenterIn(grid, Eigen::AlignedBox3d(center, center));
+      ASSERT_TRUE(box) << resolution << ", " << i;
+      ASSERT_EQ(box->min, index) << resolution;
+      ASSERT_EQ(box->max, index) << resolution;
+    }
+  }
+}
+
+TEST(VoxelsWithCenterIn, B4_TheLastLayersAndWhatLiesBeyond) {
+  const Grid grid(0.1);
+  const VoxelIndex last{kLastVoxelIndex, kFirstVoxelIndex, 0};
+  const Eigen::Vector3d center = grid.center(last);
+  const auto box = voxelsWithCenterIn(grid, Eigen::AlignedBox3d(center, center));
+  ASSERT_TRUE(box);
+  EXPECT_EQ(box->min, last);
+  const Eigen::Vector3d far(1e300, 1e300, 1e300);
+  const auto all = voxelsWithCenterIn(grid, Eigen::AlignedBox3d(-far, far));
+  ASSERT_TRUE(all);
+  EXPECT_EQ(all->min.x, kFirstVoxelIndex);
+  EXPECT_EQ(all->max.x, kLastVoxelIndex);
+  EXPECT_FALSE(voxelsWithCenterIn(grid, Eigen::AlignedBox3d(0.5 * far, far)));
+  EXPECT_FALSE(voxelsWithCenterIn(
+      grid, Eigen::AlignedBox3d(Eigen::Vector3d(0.06, 0, 0), Eigen::Vector3d(0.14, 1, 1))));
+}
+
 }  // namespace
 }  // namespace csom::test

@@ -57,7 +57,8 @@ TEST_F(PcdReaderTest, ReadsAsciiWithLabels) {
   EXPECT_EQ(cloud.points[1].head<2>(), Eigen::Vector2d(0.125, 4));
   EXPECT_TRUE(std::isnan(cloud.points[1].z()));
   EXPECT_THAT(cloud.labels, ElementsAre(7, 40));
-  EXPECT_THAT(cloud.intensities, IsEmpty());
+  EXPECT_EQ(cloud.label_field, "label");
+  EXPECT_THAT(cloud.fields, ElementsAre("x", "y", "z", "label"));
   EXPECT_EQ(cloud.viewpoint, Eigen::Vector3d(1, 2, 3));
   EXPECT_TRUE(cloud.viewpoint_rotation.isApprox(Eigen::Quaterniond(0, 0, 0, 1)));
   EXPECT_EQ(cloud.irregular_rows, 0U);
@@ -77,7 +78,6 @@ TEST_F(PcdReaderTest, FieldsInAnyOrderAmongOthers) {
   EXPECT_EQ(cloud.points[0], Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(cloud.points[1], Eigen::Vector3d(-1, -2, -3));
   EXPECT_THAT(cloud.labels, ElementsAre(6, 5));
-  EXPECT_THAT(cloud.intensities, ElementsAre(0.5F, 0.25F));
 }
 
 TEST_F(PcdReaderTest, ShortHeaderIsEnough) {
@@ -101,8 +101,107 @@ TEST_F(PcdReaderTest, ReadsBinaryOfEveryTypeAndSize) {
            bytesOf(std::int16_t{-300}) + bytesOf(std::uint32_t{4000000000U}));
   EXPECT_EQ(cloud.points[0], Eigen::Vector3d(2.5, -300, 1e-9));
   EXPECT_THAT(cloud.labels, ElementsAre(200));
-  EXPECT_THAT(cloud.intensities, ElementsAre(4e9F));
   EXPECT_EQ(cloud.trailing_bytes, 0U);
+}
+
+TEST_F(PcdReaderTest, A7_PaddingOfCountZeroTakesNoBytes) {
+  Header header;
+  header.data = "binary";
+  header.points = header.width = "1";
+  header.fields = "x y z _ label _ noise _";
+  header.size = "4 4 4 1 2 1 4 1";
+  header.type = "F F F U U U U U";
+  header.count = "1 1 1 4 1 0 0 3";
+  const std::string point = bytesOf(1.F) + bytesOf(2.F) + bytesOf(3.F) + "pads" +
+                            bytesOf(std::uint16_t{9}) + "pad";
+  const PcdCloud cloud = read(header.text() + point);
+  EXPECT_EQ(cloud.points[0], Eigen::Vector3d(1, 2, 3));
+  EXPECT_THAT(cloud.labels, ElementsAre(9));
+  EXPECT_THAT(cloud.fields, ElementsAre("x", "y", "z", "label", "noise"));
+  EXPECT_EQ(cloud.trailing_bytes, 0U);
+}
+
+TEST_F(PcdReaderTest, A7_NamesInAnyCaseOlderHeadersAndByteOrderMarks) {
+  const std::string row = "1 2 3 7\n";
+  for (const std::string& header :
+       {std::string("VERSION .7\nFIELDS X Y Z Label\nPOINTS 1\nDATA ascii\n"),
+        std::string("VERSION .5\nCOLUMNS x y z label\nSIZE 4 4 4 4\nTYPE F F F U\nPOINTS 1\n"
+                    "DATA ascii\n"),
+        std::string("VERSION 0.6\nFIELDS x y z label\nWIDTH 1\nDATA ascii\n"),
+        std::string("version 0.7\nfields x y z LABEL\nwidth 1\nheight 1\ndata ASCII\n"),
+        std::string("\xef\xbb\xbf# .PCD v0.7\r\nVERSION 0.7\r\nFIELDS x y z label\r\nPOINTS "
+                    "1\r\nDATA ascii\r\n")}) {
+    SCOPED_TRACE(header);
+    const PcdCloud cloud = read(header + row);
+    ASSERT_EQ(cloud.points.size(), 1U);
+    EXPECT_EQ(cloud.points[0], Eigen::Vector3d(1, 2, 3));
+    EXPECT_THAT(cloud.labels, ElementsAre(7));
+  }
+  // The exact name wins.
+  const PcdCloud both = read("FIELDS LABEL x y z label\nPOINTS 1\nDATA ascii\n5 1 2 3 7\n");
+  EXPECT_THAT(both.labels, ElementsAre(7));
+}
+
+TEST_F(PcdReaderTest, A7_AnyFieldMayHoldTheLabels) {
+  const std::string text = "FIELDS x y z Class ring\nPOINTS 1\nDATA ascii\n1 2 3 7 8\n";
+  EXPECT_THAT(read(text).labels, IsEmpty());
+  EXPECT_EQ(read(text).label_field, "");
+  writeBytes(file_, text);
+  EXPECT_THAT(readPcd(file_, PcdRowPolicy::Refuse, "class").labels, ElementsAre(7));
+  EXPECT_EQ(readPcd(file_, PcdRowPolicy::Refuse, "class").label_field, "Class");
+  EXPECT_THAT(readPcd(file_, PcdRowPolicy::Refuse, "ring").labels, ElementsAre(8));
+}
+
+/// The values of each field one after the other, as LZF without any compression: runs of up to 32
+/// bytes, each with its length before it.
+std::string compressed(const std::string& values) {
+  std::string packed;
+  for (std::size_t begin = 0; begin < values.size(); begin += 32) {
+    const std::string run = values.substr(begin, 32);
+    packed += static_cast<char>(run.size() - 1);
+    packed += run;
+  }
+  return bytesOf(static_cast<std::uint32_t>(packed.size())) +
+         bytesOf(static_cast<std::uint32_t>(values.size())) + packed;
+}
+
+TEST_F(PcdReaderTest, A7_CompressedDataIsRead) {
+  Header header;
+  header.data = "binary_compressed";
+  header.fields = "x y _ z label";
+  header.size = "4 4 1 4 2";
+  header.type = "F F U F U";
+  header.count = "1 1 3 1 1";
+  const std::string x = bytesOf(1.F) + bytesOf(4.F);
+  const std::string y = bytesOf(2.F) + bytesOf(5.F);
+  const std::string z = bytesOf(3.F) + bytesOf(6.F);
+  const std::string labels = bytesOf(std::uint16_t{7}) + bytesOf(std::uint16_t{8});
+  for (const char* padding : {"", "paddng"}) {  // PCL leaves it out
+    const PcdCloud cloud = read(header.text() + compressed(x + y + padding + z + labels) + "rest");
+    ASSERT_EQ(cloud.points.size(), 2U);
+    EXPECT_EQ(cloud.points[0], Eigen::Vector3d(1, 2, 3));
+    EXPECT_EQ(cloud.points[1], Eigen::Vector3d(4, 5, 6));
+    EXPECT_THAT(cloud.labels, ElementsAre(7, 8));
+    EXPECT_EQ(cloud.trailing_bytes, 4U);
+  }
+}
+
+TEST_F(PcdReaderTest, A7_DamagedCompressedDataIsRefused) {
+  Header header;
+  header.data = "binary_compressed";
+  const std::string good = compressed(std::string(2 * 16, 'v'));
+  EXPECT_EQ(read(header.text() + good).points.size(), 2U);
+  const auto errorOf = [&](const std::string& data) {
+    return fileErrorOf([&] { read(header.text() + data); });
+  };
+  EXPECT_THAT(errorOf(good.substr(0, 7)), HasSubstr("without its two sizes"));
+  EXPECT_THAT(errorOf(good.substr(0, good.size() - 1)), HasSubstr("the file is truncated"));
+  EXPECT_THAT(errorOf(compressed(std::string(31, 'v'))), HasSubstr("cannot be 2 points of 16"));
+  EXPECT_THAT(errorOf(bytesOf(std::uint32_t{0}) + bytesOf(std::uint32_t{32})),
+              HasSubstr("cannot be 2 points"));
+  std::string damaged = good;
+  damaged[8] = static_cast<char>(0xff);
+  EXPECT_THAT(errorOf(damaged), HasSubstr("its compressed data is damaged"));
 }
 
 template <class Number>
@@ -244,7 +343,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadHeader{"HugePointsBinary", huge("binary"), "only 8 bytes follow"},
         BadHeader{"WidthTimesHeight", overflowing(), "impossibly large"},
         BadHeader{"HugeCount", hugeCount(), "COUNT of field 'label'"},
-        BadHeader{"ZeroCount", with(&Header::count, "1 1 1 0").text() + kRows, "must be 1 to"},
+        BadHeader{"ZeroCount", with(&Header::count, "0 1 1 1").text() + kRows, "FIELDS lacks 'x'"},
         BadHeader{"NegativePoints", with(&Header::points, "-2").text() + kRows,
                   "line 10: POINTS must be followed by one whole number"},
         BadHeader{"PointsNotWidth", with(&Header::points, "3").text() + kRows,
@@ -256,9 +355,12 @@ INSTANTIATE_TEST_SUITE_P(
                   "TYPE has 3 entries for 4 FIELDS"},
         BadHeader{"NoZ", with(&Header::fields, "x y w label").text() + kRows, "FIELDS lacks 'z'"},
         BadHeader{"Compressed", with(&Header::data, "binary_compressed").text(),
-                  "binary_compressed is not read; convert"},
+                  "compressed data without its two sizes"},
         BadHeader{"OtherData", with(&Header::data, "morse").text(), "DATA must be"},
-        BadHeader{"OtherVersion", "VERSION 0.6\n", "line 1: PCD version '0.6'; only 0.7"},
+        BadHeader{"OtherVersion", "VERSION 0.8\n",
+                  "line 1: PCD version '0.8'; versions up to 0.7 are read"},
+        BadHeader{"FieldTwice", with(&Header::fields, "x y z x").text(),
+                  "two FIELDS are called 'x'"},
         BadHeader{"ViewpointShort", with(&Header::viewpoint, "VIEWPOINT 0 0 0\n").text() + kRows,
                   "line 9: VIEWPOINT must be"},
         BadHeader{"ViewpointNan",

@@ -49,8 +49,9 @@ TEST_F(RealData, StructuredRoomIsBinaryAndPadded) {
   for (const std::string& file : files) {
     const PcdCloud cloud = readPcd(file, PcdRowPolicy::Refuse);
     ASSERT_EQ(cloud.points.size(), 3500U) << file;
-    EXPECT_EQ(cloud.intensities.size(), 3500U);
+    EXPECT_THAT(cloud.fields, testing::ElementsAre("x", "y", "z", "intensity"));
     EXPECT_TRUE(cloud.labels.empty());
+    EXPECT_EQ(readPcd(file, PcdRowPolicy::Refuse, "Intensity").labels.size(), 3500U);
     EXPECT_GT(cloud.viewpoint.norm(), 0.1) << file;
     for (const Eigen::Vector3d& point : cloud.points)
       ASSERT_LT((point - cloud.viewpoint).norm(), 20) << file;

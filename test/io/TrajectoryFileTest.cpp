@@ -57,9 +57,23 @@ TEST_F(TrajectoryFileTest, ReadsKitti) {
   writeBytes(file_, "1 0 0 4 0 1 0 5 0 0 1 6\n0 -1 0 1.5 1 1e-6 0 2 0 0 1 3\n");
   const auto poses = readKittiPoses(file_);
   ASSERT_EQ(poses.size(), 2U);
-  EXPECT_EQ(poses[0].translation(), Eigen::Vector3d(4, 5, 6));
-  EXPECT_TRUE(poses[1].linear().isUnitary(1e-12)) << "made an exact rotation";
-  EXPECT_TRUE((poses[1] * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(1.5, 3, 3), 1e-5));
+  EXPECT_EQ(poses[0].value().translation(), Eigen::Vector3d(4, 5, 6));
+  EXPECT_TRUE(poses[1].value().linear().isUnitary(1e-12)) << "made an exact rotation";
+  EXPECT_TRUE(
+      (poses[1].value() * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(1.5, 3, 3), 1e-5));
+}
+
+TEST_F(TrajectoryFileTest, LinesOfKittiAreFramesAlsoIfTheyAreBlank) {
+  const std::string pose = "1 0 0 4 0 1 0 5 0 0 1 6\n";
+  writeBytes(file_, "\n" + pose + " \r\n" + pose + "\n\n");
+  const auto poses = readKittiPoses(file_);
+  ASSERT_EQ(poses.size(), 4U) << "what is blank at the end is no frame";
+  EXPECT_FALSE(poses[0]);
+  EXPECT_TRUE(poses[1]);
+  EXPECT_FALSE(poses[2]);
+  EXPECT_TRUE(poses[3]);
+  writeBytes(file_, pose + "# the second\n" + pose);
+  EXPECT_THAT(fileErrorOf([&] { readKittiPoses(file_); }), HasSubstr("line 2: a comment"));
 }
 
 TEST_F(TrajectoryFileTest, BadTumLinesAreNamed) {

@@ -80,6 +80,7 @@ LabelOptions cameraOptions() {
   options.sources = {camera};
   options.max_time_offset = 0.1;
   options.points.edge_margin = 0;
+  options.outside_view = OutsideView::Drop;
   return options;
 }
 
@@ -196,6 +197,52 @@ TEST_F(CameraLabelledAdapterTest, pointsThatNoCameraSeesAreDroppedOrUnlabelled) 
   EXPECT_THAT(kept->front().scan.labels, ElementsAre(kRoad, kUnlabelled));
   EXPECT_EQ(keeping.cameraStatistics()->kept_unlabelled, 1U);
   EXPECT_EQ(keeping.cameraStatistics()->pointsDropped(), 0U);
+}
+
+TEST_F(CameraLabelledAdapterTest, A1_pointsOnPixelsWithoutAClassAreObstaclesTooIfThoseOutsideAre) {
+  constexpr std::uint8_t kIgnored = 0;
+  constexpr std::uint8_t kUnknown = 99;
+  LabelOptions options = cameraOptions();
+  options.outside_view = OutsideView::Unlabelled;
+  CameraLabelledAdapter keeping(options, labels_);
+  keeping.adapt(*labelImage(0, kIgnored, kUnknown), roundedPose({}), rules_);
+  const auto kept = keeping.adapt(*scanAt(0), roundedPose({}), rules_);
+  ASSERT_EQ(kept->size(), 1U);
+  EXPECT_THAT(kept->front().scan.labels, ElementsAre(kUnlabelled, kUnlabelled));
+  EXPECT_EQ(keeping.cameraStatistics()->pointsDropped(), 0U);
+  EXPECT_EQ(keeping.cameraStatistics()->pointsRejected(), 0U);
+
+  give(*labelImage(0, kIgnored, kUnknown));
+  EXPECT_TRUE(give(*scanAt(0)).front().scan.labels.empty());
+  EXPECT_EQ(statistics().pointsRejected(), 2U);
+}
+
+TEST_F(CameraLabelledAdapterTest, A8_itTellsWhichWayTheCameraLooks) {
+  give(*labelImage(0));
+  const auto& axis = statistics().sources[0].looks_along;
+  EXPECT_NEAR(axis[0], 1, 1e-9);
+  EXPECT_NEAR(axis[1], 0, 1e-9);
+  EXPECT_NEAR(axis[2], 0, 1e-9);
+}
+
+TEST_F(CameraLabelledAdapterTest, B9_assigningAMapKeepsTheObserverOfTheOneThatIsAssignedTo) {
+  CSemanticContinuousMap source({}, labels_);
+  CSemanticContinuousMap target({}, labels_);
+  source.labelOptions = target.labelOptions = cameraOptions();
+  int seen_by_source = 0, seen_by_target = 0;
+  source.setLabelledScanObserver([&](const LabelledScan&) { ++seen_by_source; });
+  target.setLabelledScanObserver([&](const LabelledScan&) { ++seen_by_target; });
+  source.insertObservation(*labelImage(0));
+  target = source;
+  target.insertObservation(*scanAt(0));
+  EXPECT_EQ(seen_by_target, 1);
+  EXPECT_EQ(seen_by_source, 0);
+  CSemanticContinuousMap copy(source);
+  copy.insertObservation(*scanAt(0));
+  EXPECT_EQ(seen_by_source, 0) << "a copy has no observer";
+  source.insertObservation(*scanAt(0));
+  EXPECT_EQ(seen_by_source, 1);
+  EXPECT_EQ(seen_by_target, 1);
 }
 
 TEST_F(CameraLabelledAdapterTest, pixelsThatTheLabelSetIgnoresOrDoesNotKnowAreCounted) {

@@ -44,6 +44,23 @@ TEST(LabelRules, coloursAndNamesMustMatchExactly) {
   EXPECT_EQ(rules.fromName("Road"), PointLabel{Kind::Unknown});
 }
 
+TEST(LabelRules, A1_noLabelOfAPointMeansFree) {
+  // Raw ids without a table are class ids, and 0 is the class free.
+  const LabelSet labels = LabelSet::occupancy();
+  const LabelRules rules(labels, PointLabels::ByIntensity, "", "");
+  EXPECT_EQ(rules.fromRaw(0), PointLabel{Kind::Unknown});
+  EXPECT_EQ(rules.fromIntensity(0), PointLabel{Kind::Unknown});
+  EXPECT_EQ(rules.fromName("free"), PointLabel{Kind::Unknown});
+  EXPECT_EQ(rules.fromColor({255, 255, 255}), PointLabel{Kind::Unknown});
+  EXPECT_EQ(rules.fromRaw(1), (PointLabel{Kind::Class, 1}));
+  const LabelSet mapped = LabelSet::fromYaml(
+      "name: mapped\nclasses:\n  - {id: 0, name: free, color: [255, 255, 255]}\n"
+      "  - {id: 1, name: road, color: [1, 2, 3]}\nraw:\n  7: 0\n  8: 1\n",
+      "test");
+  EXPECT_EQ(LabelRules(mapped, PointLabels::ByIntensity, "", "").fromRaw(7),
+            PointLabel{Kind::Unknown});
+}
+
 TEST(LabelRules, unlabelledPointsHaveADefaultClass) {
   const LabelSet sample = testing::sampleLabels();
   EXPECT_EQ(LabelRules(sample, PointLabels::None, "", "").unlabelledClass(), ClassId{3});

@@ -218,10 +218,23 @@ TEST_F(MapDefinition, labelSourcesAndTheirOptions) {
 }
 
 TEST_F(MapDefinition, pointsOutsideOfViewGiveTheLabelSetAClassForThem) {
-  const Definition definition = load(section("labelOpts") + "outside_view = unlabelled\n");
+  const std::string camera =
+      section("labelSource_00") + "sensor_label = a\nsource = label_image\nlabel_image = b\n";
+  const Definition definition = load(camera);
   EXPECT_EQ(definition.labels.classByName("unlabelled"), ClassId{2});
   EXPECT_EQ(definition.options.number_of_classes, 3);
   EXPECT_EQ(definition.options.unlabelled_class_id, 2);
+  EXPECT_FALSE(load(camera + section("labelOpts") + "outside_view = drop\n")
+                   .labels.classByName("unlabelled"));
+  EXPECT_FALSE(load("").labels.classByName("unlabelled")) << "no camera, nothing outside of its view";
+}
+
+TEST_F(MapDefinition, A1_theClassOfUnlabelledPointsIsAddedIfItIsNamedSo) {
+  for (const char* key : {"unlabelled_class", "scan_2d_class"}) {
+    const Definition definition = load(section("insertOpts") + key + " = unlabelled\n");
+    EXPECT_EQ(definition.labels.classByName("unlabelled"), ClassId{2}) << key;
+    EXPECT_EQ(definition.options.unlabelled_class_id, 2);
+  }
 }
 
 TEST_F(MapDefinition, wrongLabelSourcesAreNamed) {

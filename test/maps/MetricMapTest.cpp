@@ -71,9 +71,38 @@ TEST(MetricMap, recordsEveryInsertedObservation) {
   EXPECT_EQ(record.sensor_label, "cloud");
   EXPECT_EQ(record.observation_class, "CObservationPointCloud");
   EXPECT_THAT(record.origin, ::testing::ElementsAre(1, 2, 3));
-  EXPECT_EQ(record.report.points, 1u);
+  EXPECT_EQ(record.report.points, 2u) << "what cannot be labelled is an obstacle all the same";
+  EXPECT_EQ(map.statistics().labels.kept_unknown, 1u);
+  EXPECT_EQ(map.document().meta.at("points_with_unknown_label_kept_unlabelled"), "1");
+}
+
+TEST(MetricMap, whatHasNoUsableLabelIsRejectedByNameIfItIsNotKept) {
+  CSemanticContinuousMap map = sampleMap();
+  map.insertionOptions.unlabelled_class = "drop";
+  auto observation = pointCloud({{1, 0, 0}, {2, 0, 0}, {0, 0, 0}}, {40, 77, 40});
+  map.insertObservation(*observation);
+  EXPECT_EQ(map.scans().at(0).report.points, 1u);
   EXPECT_EQ(map.statistics().labels.unknown, 1u);
   EXPECT_EQ(map.document().meta.at("points_with_unknown_label_dropped"), "1");
+  EXPECT_EQ(map.document().meta.at("beams_without_return"), "1");
+}
+
+TEST(MetricMap, B9_aScanThatCannotBeInsertedIsRefusedAndNotThrown) {
+  Options options;
+  options.resolution = 1;
+  options.free_space = FreeSpace::Sampled;
+  options.free_resolution = 0.001;  // 2^27 free samples are soon reached
+  CSemanticContinuousMap map(options, testing::sampleLabels());
+  map.insertionOptions.point_labels = PointLabels::ByIntensity;
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 20000; ++i) points.emplace_back(7.9f, 0.0001f * static_cast<float>(i), 0.0f);
+  map.announce_damaged = false;
+  EXPECT_FALSE(
+      map.insertObservation(*pointCloud(points, std::vector<float>(points.size(), 40.0f))));
+  EXPECT_EQ(map.lastInsertion().outcome, LastInsertion::Outcome::Damaged);
+  EXPECT_THAT(map.lastInsertion().reason, ::testing::HasSubstr("free samples"));
+  EXPECT_EQ(map.statistics().damaged.at("CObservationPointCloud"), 1u);
+  EXPECT_TRUE(map.insertObservation(*pointCloud({{1, 0, 0}}, {40}))) << "the next one is";
 }
 
 TEST(MetricMap, refusesWhatItCannotUseWithoutThrowing) {

@@ -175,7 +175,7 @@ TEST_F(CheckpointsTest, ARunThatHasDoneNothingLeavesNothing) {
 
 TEST_F(CheckpointsTest, MemoryThatRunsShortEndsTheRunWithAllSaved) {
   // It is asked ten times a second at most: a short run would come to its end before.
-  request.logs.assign(400, request.logs.front());
+  request.logs = {writeLog(folder / "long.rawlog", driveEntries(1600))};
   std::size_t scans = 0;
   CheckpointRequest checkpoints = everyEntry();
   checkpoints.seconds = 1e6;

@@ -282,8 +282,8 @@ TEST(ImportPcd, JoinsFilesOfWhichOneIsEmpty) {
   writeBytes(folder / "2.pcd", pcd("x y z label", "0 0 0", ""));
   PcdImport request;
   request.single_scan = true;
-  for (const auto field : {PcdField::Auto, PcdField::Label}) {
-    request.field = field;
+  for (const char* field : {"", "label"}) {
+    request.label_field = field;
     for (const auto& names : {std::pair("1.pcd", "2.pcd"), std::pair("2.pcd", "1.pcd")}) {
       request.files = {folder / names.first, folder / names.second};
       EXPECT_EQ(importPcd(request, folder / "a.rawlog").points, 1u);
@@ -291,17 +291,19 @@ TEST(ImportPcd, JoinsFilesOfWhichOneIsEmpty) {
   }
 }
 
-TEST(ImportPcd, DoesNotJoinLabelsWithIntensities) {
+TEST(ImportPcd, DoesNotTakeLabelsOfSomeFilesAndNotOfOthers) {
   const TempFolder folder;
   writeBytes(folder / "1.pcd", pcd("x y z label", "0 0 0", "1 2 3 4\n"));
   writeBytes(folder / "2.pcd", pcd("x y z intensity", "0 0 0", "1 2 3 77\n"));
   writeBytes(folder / "3.pcd", pcd("x y z", "0 0 0", "1 2 3\n"));
   PcdImport request;
-  request.single_scan = true;
-  for (const char* other : {"2.pcd", "3.pcd"}) {
-    request.files = {folder / "1.pcd", folder / other};
-    EXPECT_THAT(fileErrorOf([&] { importPcd(request, folder / "a.rawlog"); }),
-                testing::AllOf(HasSubstr(other), HasSubstr("1.pcd has the field 'label'")));
+  for (const bool single : {false, true}) {
+    request.single_scan = single;
+    for (const char* other : {"2.pcd", "3.pcd"}) {
+      request.files = {folder / "1.pcd", folder / other};
+      EXPECT_THAT(fileErrorOf([&] { importPcd(request, folder / "a.rawlog"); }),
+                  testing::AllOf(HasSubstr(other), HasSubstr("1.pcd has the field 'label'")));
+    }
   }
 }
 
@@ -311,18 +313,18 @@ TEST(ImportPcd, ChoosesTheFieldThatCarriesLabels) {
   writeBytes(folder / "bare.pcd", pcd("x y z", "0 0 0", "1 2 3\n"));
   PcdImport request;
   request.files = {folder / "both.pcd"};
-  const auto carried = [&](PcdField field) {
-    request.field = field;
+  const auto cloudOf = [&](const std::string& field) {
+    request.label_field = field;
     importPcd(request, folder / "a.rawlog");
-    return intensitiesOf(
-        *only<mrpt::obs::CObservationPointCloud>(observationsOf(folder / "a.rawlog")).at(0));
+    return only<mrpt::obs::CObservationPointCloud>(observationsOf(folder / "a.rawlog")).at(0);
   };
-  EXPECT_THAT(carried(PcdField::Auto), testing::ElementsAre(5));
-  EXPECT_THAT(carried(PcdField::Label), testing::ElementsAre(5));
-  EXPECT_THAT(carried(PcdField::Intensity), testing::ElementsAre(77));
+  EXPECT_THAT(intensitiesOf(*cloudOf("")), testing::ElementsAre(5));
+  EXPECT_THAT(intensitiesOf(*cloudOf("LABEL")), testing::ElementsAre(5));
+  EXPECT_THAT(intensitiesOf(*cloudOf("intensity")), testing::ElementsAre(77));
   request.files = {folder / "bare.pcd"};
-  EXPECT_THAT(carried(PcdField::Auto), testing::ElementsAre(0));
-  EXPECT_THROW(carried(PcdField::Label), FileError);
+  EXPECT_EQ(std::dynamic_pointer_cast<mrpt::maps::CPointsMapXYZI>(cloudOf("")->pointcloud), nullptr)
+      << "points without labels have none, not label 0";
+  EXPECT_THROW(cloudOf("label"), FileError);
 }
 
 TEST(ImportPcd, ReportsRowsAndLabelsThatItCouldNotKeep) {

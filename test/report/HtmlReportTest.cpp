@@ -226,7 +226,8 @@ TEST(HtmlReportTest, SaysWhatBecameOfThePointsInView) {
   EXPECT_THAT(page, HasSubstr("<code>left</code></td><td class=\"text\">network</td><td>20</td>"
                               "<td>15</td><td>12</td><td>3</td><td>4</td><td>1</td>"));
   EXPECT_THAT(page, HasSubstr("The network alone took 10 s; the rest of the run added 23.4 %"));
-  EXPECT_THAT(page, HasSubstr("11,500 were seen by no camera, or not properly"));
+  EXPECT_THAT(page, HasSubstr("1,500 were hidden from the camera, or at a label border"));
+  EXPECT_THAT(page, HasSubstr("10,000 points outside of the view of all cameras were left out"));
   EXPECT_THAT(page, HasSubstr("200 had a label that the label set ignores"));
   expectBalanced(page);
 }
@@ -234,13 +235,14 @@ TEST(HtmlReportTest, SaysWhatBecameOfThePointsInView) {
 TEST(HtmlReportTest, SaysThatPointsWereKeptAsUnlabelledAndThatTheClockWentBack) {
   RunRecord record = test::sampleRecord();
   record.camera_labels = test::sampleCameraLabels();
-  record.camera_labels->points.kept_unlabelled = 11'500;
+  record.camera_labels->points.kept_unlabelled = 11'750;
   record.camera_labels->clock_restarts = 3;
   record.camera_labels->seconds.network = 0;
   const std::string page = pageOfCameraRun(record);
-  EXPECT_THAT(page, HasSubstr("11,500 went into the map as unlabelled"));
+  EXPECT_THAT(page, HasSubstr("11,750 went into the map as unlabelled"));
   EXPECT_THAT(page, HasSubstr("The time stamps went back 3 times."));
-  EXPECT_THAT(page, Not(HasSubstr("were seen by no camera")));
+  EXPECT_THAT(page, Not(HasSubstr("were hidden from the camera")));
+  EXPECT_THAT(page, Not(HasSubstr("were left out")));
   EXPECT_THAT(page, Not(HasSubstr("The network alone")));
 }
 

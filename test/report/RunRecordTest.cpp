@@ -215,16 +215,33 @@ TEST(RunRecordTest, PointsThatCamerasDropAreRejectsByReason) {
     const json totals = parsed(record)["totals"];
     EXPECT_EQ(totals["rejects"]["unknown-label"], 20 + 50);
     EXPECT_EQ(totals["rejects"]["ignored-label"], 300 + 200);
-    EXPECT_EQ(totals["rejects"]["not-seen-by-camera"], unseen);
+    EXPECT_EQ(totals["rejects"]["not-seen-by-camera"], unseen) << "hidden or at an edge";
     EXPECT_EQ(totals["rejects"]["low-confidence"], 250);
     std::size_t sum = 0;
     for (const auto& [reason, count] : totals["rejects"].items()) sum += count.get<std::size_t>();
     EXPECT_EQ(totals["rejected"], sum);
-    EXPECT_EQ(totals["points"], 2000 + 4321 + unseen + 250 + 200 + 50);
+    EXPECT_EQ(totals["points"], 2000 + 4321 + 10'000 + unseen + 250 + 200 + 50);
+    EXPECT_EQ(totals["outside_view"], 10'000) << "left out, but not rejected";
   };
-  check(11'500);
-  record.camera_labels->points.kept_unlabelled = 11'000;  // these the scans count
-  check(500);
+  check(1500);
+}
+
+TEST(RunRecordTest, PointsThatAreKeptAsUnlabelledAreNoRejects) {
+  RunRecord record = test::sampleRecord();
+  record.label_rejects = {1, 20, 300, 4000};
+  record.camera_labels = test::sampleCameraLabels();
+  record.camera_labels->points.kept_unlabelled = 11'750;  // these the scans count
+  record.kept_unlabelled = 17;
+  record.no_returns = 18;
+  const json totals = parsed(record)["totals"];
+  EXPECT_EQ(totals["rejects"]["unknown-label"], 20);
+  EXPECT_EQ(totals["rejects"]["ignored-label"], 300);
+  EXPECT_EQ(totals["rejects"]["not-seen-by-camera"], 0);
+  EXPECT_EQ(totals["rejects"]["low-confidence"], 250);
+  EXPECT_EQ(totals["outside_view"], 0);
+  EXPECT_EQ(totals["points"], 2000 + 4321 + 250);
+  EXPECT_EQ(totals["kept_unlabelled"], 17);
+  EXPECT_EQ(totals["no_returns"], 18);
 }
 
 TEST(RunRecordTest, TellsAboutDeskewingAndRegistration) {

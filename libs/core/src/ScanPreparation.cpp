@@ -80,9 +80,7 @@ class Preparation {
         grid_(options.resolution),
         origin_is_finite_(scan.origin.allFinite()),
         origin_is_inside_(grid_.contains(scan.origin)),
-        reach_(kReachCells * (options.ds_resolution > 0
-                                  ? std::min(options.ds_resolution, options.resolution)
-                                  : options.resolution)),
+        reach_(scanReach(options)),
         longest_beam_(longestBeam()),
         nearest_squared_(options.min_range * options.min_range * (1 + kMargin)),
         farthest_squared_(squareOf(options.max_range > 0
@@ -344,6 +342,12 @@ class Preparation {
 };
 
 }  // namespace
+
+double scanReach(const Options& options) {
+  const bool down_sampled = options.ds_resolution > 0;
+  return kReachCells * (down_sampled ? std::min(options.ds_resolution, options.resolution)
+                                     : options.resolution);
+}
 
 PreparedScan prepareScan(const Scan& scan, const Options& options, ScanReport& report) {
   checkSizes(scan, options.number_of_classes);

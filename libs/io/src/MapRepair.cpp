@@ -17,6 +17,7 @@
 #include "MapTables.h"
 #include "Sqlite.h"
 #include "TableRows.h"
+#include "WriteAheadLog.h"
 
 namespace csom {
 
@@ -253,7 +254,7 @@ void noteLostScans(const FoundRows& found, MapRepair& repair) {
 /// A file with what is still in the write-ahead log beside it, as a file of its own.
 struct WithoutLog {
   std::optional<std::string> copy;  ///< nothing: there is no log
-  std::string lost;                 ///< why the log could not be read; empty: it was, or there is none
+  std::string damage;  ///< of the log, part or all of which could not be read; empty: it is whole
 };
 
 /// One state of a file that somebody may be writing to. Throws FileError.
@@ -280,6 +281,15 @@ void copyFiles(const std::string& file, const std::string& copy) {
   }
 }
 
+/// Empty if the log is whole; if it cannot even be read, copyFiles() will say so.
+std::string logDamage(const std::string& file) {
+  try {
+    return detail::damageOfLog(file + "-wal");
+  } catch (const FileError& error) {
+    return error.what();
+  }
+}
+
 /// Throws FileError if there is a log that cannot be got at: what it holds is not lost yet.
 WithoutLog withoutLog(const std::string& file, const TemporaryFolder& folder) {
   std::error_code error;
@@ -287,9 +297,10 @@ WithoutLog withoutLog(const std::string& file, const TemporaryFolder& folder) {
   if (status.type() == std::filesystem::file_type::not_found) return {};
   if (std::filesystem::file_size(file + "-wal", error) == 0 && !error) return {};
   const std::string copy = folder.file("map.csom");
+  const std::string damage = logDamage(file);
   try {
     copyDatabase(file, copy);
-    return {copy, ""};
+    return {copy, damage};
   } catch (const std::runtime_error&) {
     for (const char* ending : {"", "-wal", "-shm", "-journal"})
       std::filesystem::remove(copy + ending, error);
@@ -299,9 +310,9 @@ WithoutLog withoutLog(const std::string& file, const TemporaryFolder& folder) {
     Database database(copy, file, Database::Mode::ReadWrite);
     database.execute("PRAGMA wal_checkpoint(TRUNCATE)");
     database.close();
-    return {copy, ""};
-  } catch (const std::runtime_error& damage) {
-    return {std::nullopt, damage.what()};
+    return {copy, damage};
+  } catch (const std::runtime_error& wrong) {
+    return {std::nullopt, damage.empty() ? wrong.what() : damage};
   }
 }
 
@@ -347,10 +358,11 @@ MapRepair recoverMap(const std::string& file) {
   const TemporaryFolder folder;
   const WithoutLog source = withoutLog(file, folder);
   MapRepair repair = recoverFrom(source.copy.value_or(file), file);
-  if (!source.lost.empty()) {
+  if (!source.damage.empty()) {
     repair.lost_chunks = true;
-    repair.losses.push_back("what was committed last is lost, as the log beside the file (-wal) "
-                            "cannot be read: " + source.lost);
+    repair.losses.push_back("what was committed last may be lost, as the log beside the file (-wal) "
+                            "cannot be read to its end: " +
+                            source.damage);
   }
   return repair;
 }

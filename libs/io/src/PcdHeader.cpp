@@ -41,7 +41,8 @@ class HeaderReader {
       if (!lines_.next(line)) throw FileError(file_, "is no PCD file: it has no line 'DATA'");
       splitColumns(line, words_);
       if (words_.empty() || words_.front().front() == '#') continue;
-      key_ = words_.front();
+      entry_ = words_.front();
+      key_ = entry_;
       std::transform(key_.begin(), key_.end(), key_.begin(),
                      [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
       words_.erase(words_.begin());
@@ -92,7 +93,7 @@ class HeaderReader {
     } else if (key_ == "DATA") {
       readData();
     } else {
-      fail("unknown entry " + quoted(key_) + " in the header of a PCD file");
+      fail("unknown entry " + quoted(entry_) + " in the header of a PCD file");
     }
   }
 
@@ -198,7 +199,8 @@ class HeaderReader {
   std::string file_;
   std::size_t skipped_;  ///< bytes before the first line
   LineReader lines_;
-  std::string key_;  ///< in capitals
+  std::string_view entry_;  ///< first word of the line
+  std::string key_;         ///< the same in capitals
   std::set<std::string> names_;
   std::vector<std::string_view> words_;
   std::optional<std::size_t> width_;

@@ -74,6 +74,8 @@ std::shared_ptr<const VoxelTruth> seenOf(const Trial& trial, const std::vector<S
 
 LabelOptions camerasOf(const Scenario& scenario) {
   LabelOptions options;
+  // What the cameras label is asked for; all methods get the same points.
+  options.outside_view = OutsideView::Drop;
   for (const SensorModel& sensor : scenario.sensors) {
     if (!std::holds_alternative<CameraModel>(sensor)) continue;
     const std::string& label = mountOf(sensor).label;

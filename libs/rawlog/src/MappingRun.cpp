@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From logs to a map: what `csom map` does, without its files and its terminal.
 #include <csom/core/Error.h>
+#include <csom/core/ScanPreparation.h>
 #include <csom/io/InputFile.h>
 #include <csom/io/TextParser.h>
 #include <csom/rawlog/MappingRun.h>
@@ -154,7 +155,6 @@ class MappingRun {
   }
   void warn(const std::string& text) { result_.warnings.push_back(text); }
   std::string rangeHint() const;
-  std::string farthestOrigin(double reach) const;
   void warnAboutPoints();
   void warnAboutViews(const CameraStatistics& cameras);
   void warnAboutCameras();
@@ -368,26 +368,23 @@ void MappingRun::keep(const mrpt::obs::CObservation::Ptr& observation, const CPo
   open_frame_->insert(detail::withAbsoluteImagePaths(observation));
 }
 
-/// How far a map reaches, and what to do with coordinates of a country's grid.
+/// How far a map and a scan reach, and what to do with coordinates of a country's grid.
 std::string MappingRun::rangeHint() const {
-  const double resolution = result_.map->map().options().resolution;
-  const double reach = resolution * kMaxVoxelIndex;
+  const Options& options = result_.map->map().options();
+  const double reach = options.resolution * kMaxVoxelIndex;
+  std::string farthest;
+  if (state_.farthest.cwiseAbs().maxCoeff() > reach) {
+    char place[128];
+    std::snprintf(place, sizeof place, "; the robot was at (%.1f, %.1f, %.1f)",
+                  state_.farthest.x(), state_.farthest.y(), state_.farthest.z());
+    farthest = place;
+  }
   char text[320];
   std::snprintf(text, sizeof text,
-                "; at resolution %g m a map reaches %.0f km from its origin along each axis%s. "
-                "Subtract one offset from all poses (for UTM, the position of the first one), or "
-                "raise the resolution",
-                resolution, reach / 1000, farthestOrigin(reach).c_str());
-  return text;
-}
-
-/// ", and the sensor was at …" if it was too far away.
-std::string MappingRun::farthestOrigin(double reach) const {
-  const Eigen::Vector3d& origin = state_.farthest;
-  if (origin.cwiseAbs().maxCoeff() <= reach) return "";
-  char text[128];
-  std::snprintf(text, sizeof text, ", and the robot was at (%.1f, %.1f, %.1f)", origin.x(),
-                origin.y(), origin.z());
+                "; with voxels of %g m a map reaches %.0f km from its origin along each axis, and a "
+                "scan %.0f km from its sensor%s. Subtract one offset from all poses (for UTM, the "
+                "position of the first one), or take larger voxels",
+                options.resolution, reach / 1000, scanReach(options) / 1000, farthest.c_str());
   return text;
 }
 

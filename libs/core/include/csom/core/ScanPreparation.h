@@ -37,6 +37,9 @@ struct PreparedScan {
   std::vector<VoxelIndex> hit_voxels;  ///< voxels of every accepted point, with repeats
 };
 
+/// How far a scan may reach from its origin along each axis [m].
+double scanReach(const Options& options);
+
 /// Steps 0 to 3 of docs/algorithm.md. Bad points are counted in `report`, never thrown for; throws
 /// std::invalid_argument if labels or scores do not match the points, or if there are more than
 /// 2^27 free samples.
