@@ -6,9 +6,9 @@
 
 namespace csom {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP end the process as usual, but what it has not finished
-/// is removed first (see removeTemporaryPaths()). A signal that was ignored when the program began
-/// (nohup) stays ignored. One in a process, in main().
+/// While it lives, SIGINT, SIGTERM and SIGHUP end the process as usual, but what it has not
+/// finished is removed first (see removeTemporaryPaths()). A signal that was ignored when the
+/// program began (nohup) stays ignored. One in a process, in main().
 class SignalCleanup {
  public:
   SignalCleanup();
@@ -23,8 +23,8 @@ class SignalCleanup {
   std::thread thread_;
 };
 
-/// Such a signal as a question that a command asks when it suits it: while this lives, the first one
-/// only makes received() true; the next ends the process. One at a time in a process.
+/// Such a signal as a question that a command asks when it suits it: while this lives, the first
+/// one only makes received() true; the next ends the process. One at a time in a process.
 class StopSignal {
  public:
   StopSignal();

@@ -43,7 +43,8 @@ void printSummary(const ImportSummary& summary, const std::string& rawlog) {
     std::fprintf(stderr, "csom: warning: %s\n", detail::printable(warning).c_str());
   if (summary.points == 0)
     std::fprintf(stderr, "csom: warning: %s holds no point\n", detail::printable(rawlog).c_str());
-  std::printf("%s: %s, %s", detail::printable(rawlog).c_str(), formatCount(summary.scans, "scan").c_str(),
+  std::printf("%s: %s, %s", detail::printable(rawlog).c_str(),
+              formatCount(summary.scans, "scan").c_str(),
               formatCount(summary.points, "point").c_str());
   if (summary.images > 0) std::printf(", %s", formatCount(summary.images, "image").c_str());
   std::printf("\nlabels: %s\n", detail::printable(summary.labels).c_str());

@@ -154,9 +154,8 @@ void runVerify(const InfoArguments& arguments) {
     printJson(verificationToJson(found));
   else if (found.faults.empty())
     std::printf("%s: intact%s, %zu chunks, %zu scans, digest %s\n",
-                detail::printable(arguments.file).c_str(),
-                found.finished ? "" : ", unfinished", found.chunks, found.scans,
-                found.digest.c_str());
+                detail::printable(arguments.file).c_str(), found.finished ? "" : ", unfinished",
+                found.chunks, found.scans, found.digest.c_str());
   for (const std::string& fault : found.faults)
     std::fprintf(stderr, "csom: %s\n", detail::printable(fault).c_str());
   if (!found.faults.empty())

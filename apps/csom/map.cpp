@@ -86,12 +86,12 @@ void printSummary(const RunRecord& record, const MapFigures& figures, const Outp
   if (record.no_returns > 0)
     std::printf("no return %s hit nothing\n", formatCount(record.no_returns, "beam").c_str());
   if (const auto& cameras = record.camera_labels)
-    std::printf("cameras   %s labelled; %s outside of their view, %s hidden or at an edge%s\n",
-                formatCount(cameras->points.labelled, "point").c_str(),
-                formatCount(cameras->points.outside_view).c_str(),
-                formatCount(cameras->points.hidden + cameras->points.at_edge).c_str(),
-                cameras->points.kept_unlabelled > 0 ? ": in the map as unlabelled"
-                                                    : ": not in the map");
+    std::printf(
+        "cameras   %s labelled; %s outside of their view, %s hidden or at an edge%s\n",
+        formatCount(cameras->points.labelled, "point").c_str(),
+        formatCount(cameras->points.outside_view).c_str(),
+        formatCount(cameras->points.hidden + cameras->points.at_edge).c_str(),
+        cameras->points.kept_unlabelled > 0 ? ": in the map as unlabelled" : ": not in the map");
   for (const RefusedObservations& refused : record.refused)
     std::printf("unused    %s %s: %s\n", formatCount(refused.count).c_str(),
                 detail::printable(refused.observation_class).c_str(),
@@ -99,7 +99,8 @@ void printSummary(const RunRecord& record, const MapFigures& figures, const Outp
   std::printf("map       %s voxels known, %s occupied, %.1f MB in memory: %s\n",
               formatCount(figures.known_voxels).c_str(),
               formatCount(figures.occupied_voxels).c_str(),
-              static_cast<double>(figures.memory_bytes) / 1e6, detail::printable(folder.file("map.csom")).c_str());
+              static_cast<double>(figures.memory_bytes) / 1e6,
+              detail::printable(folder.file("map.csom")).c_str());
   std::printf("time      %.2f s\n", record.wall_seconds);
   std::printf("report    %s\n",
               detail::printable(folder.file(html ? "report.html" : "run.json")).c_str());

@@ -30,8 +30,8 @@ struct LogOfMap {
   std::string hash;
 };
 
-/// What a map says of the logs that it was made of, also through merges; nothing for maps that other
-/// programs have made.
+/// What a map says of the logs that it was made of, also through merges; nothing for maps that
+/// other programs have made.
 std::vector<LogOfMap> logsOf(const MapDocument& document) {
   const auto text = [&](const std::string& key) {
     const auto found = document.meta.find(key);

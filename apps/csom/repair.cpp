@@ -29,9 +29,9 @@ void runRepair(const RepairArguments& arguments) {
   saveMap(repair.document, arguments.output);
   const MapDocument& document = repair.document;
   std::printf("%s: %zu chunks, %zu known voxels, %zu scans, digest %s\n",
-              detail::printable(arguments.output).c_str(),
-              document.map.chunks().chunkCount(), document.map.knownVoxelCount(),
-              document.scans.size(), mapDigest(document.map).c_str());
+              detail::printable(arguments.output).c_str(), document.map.chunks().chunkCount(),
+              document.map.knownVoxelCount(), document.scans.size(),
+              mapDigest(document.map).c_str());
   for (const std::string& loss : repair.losses)
     std::printf("lost: %s\n", detail::printable(loss).c_str());
   if (!repair.lost_chunks) std::printf("no voxel is lost\n");

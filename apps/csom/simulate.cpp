@@ -79,9 +79,8 @@ void printText(const SimulateArguments& arguments, const SimulationSummary& summ
   std::printf("\n");
   if (truth)
     std::printf("%s: %s occupied and %s free voxels of %g m\n",
-                detail::printable(arguments.truth).c_str(),
-                formatCount(truth->occupied).c_str(), formatCount(truth->free).c_str(),
-                truth->resolution);
+                detail::printable(arguments.truth).c_str(), formatCount(truth->occupied).c_str(),
+                formatCount(truth->free).c_str(), truth->resolution);
 }
 
 void printAsJson(const SimulateArguments& arguments, std::uint64_t seed,

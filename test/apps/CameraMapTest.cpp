@@ -82,8 +82,6 @@ TEST_F(CameraMap, SaysHowManyScansHadNoImage) {
   const std::string network = "networks/campus.yaml";
   config.replace(config.find(network), network.size(),
                  CSOM_SOURCE_DIR "/config/networks/campus.yaml");
-  const std::string drop = "outside_view = drop";
-  config.replace(config.find(drop), drop.size(), "outside_view = unlabelled");
   writeBytes(folder / "nowhere.ini", config);
   const auto run = map(folder / "nowhere.ini");
   ASSERT_EQ(run.exit_code, 0) << run.errors;

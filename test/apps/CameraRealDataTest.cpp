@@ -28,7 +28,8 @@ class CameraRealData : public testing::Test {
 
     std::string config = readBytes(CSOM_SOURCE_DIR "/config/kitti-raw.ini");
     replace(config, "network = networks/", "network = " CSOM_SOURCE_DIR "/config/networks/");
-    replace(config, "; model =", "model = " + folder_of_data + "/models/espnetv2_s2.0_cityscapes_1280x320.onnx");
+    replace(config, "; model =",
+            "model = " + folder_of_data + "/models/espnetv2_s2.0_cityscapes_1280x320.onnx");
     writeBytes(config_, config);
   }
 

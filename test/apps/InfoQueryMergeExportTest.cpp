@@ -187,7 +187,7 @@ TEST_F(MapCommandsTest, WrongQueriesEndWithUsage) {
       {"--ray", "0,0,0,0,0,0"},
       {"--ray", "1e30,0,0,1,0,0"},
       {"--box", "0,0,0,1,1"},
-      {"--box", "0,0,0,1,0,1"},
+      {"--box", "0,0,0,1,-0.1,1"},
       {"--box", "1,0,0,0,1,1"},
       {"--point", "0,0,0", "--ray", "0,0,0,1,0,0"},
       {"--point", "0,0,0", "--max-range", "3"},
@@ -222,13 +222,22 @@ TEST_F(MapCommandsTest, MergeIsTheSumInAnyOrder) {
   EXPECT_EQ(mapDigest(merged.map), mapDigest(sum));
   EXPECT_EQ(mapDigest(loadMap(folder_ / "ba.csom").map), mapDigest(sum));
   EXPECT_EQ(merged.scans.size(), 6U);
-  EXPECT_EQ(merged.meta.at("merged_from"), map_ + " " + folder_ / "b.csom");
+  EXPECT_EQ(merged.meta.at("merged_from"), map_ + ", " + folder_ / "b.csom");
+}
+
+/// Of the same frame and label set, but other content than the sample.
+MapDocument otherDocument() {
+  MapDocument other = sampleDocument();
+  other.map.merge(sampleMap());
+  return other;
 }
 
 TEST_F(MapCommandsTest, MergeOverItsOwnInput) {
-  outputOf({"merge", map_, map_, "-o", map_});
+  const MapDocument other = otherDocument();
+  saveMap(other, folder_ / "other.csom");
+  outputOf({"merge", map_, folder_ / "other.csom", "-o", map_});
   SemanticMap sum = document_.map;
-  sum.merge(document_.map);
+  sum.merge(other.map);
   EXPECT_EQ(mapDigest(loadMap(map_).map), mapDigest(sum));
 }
 
@@ -247,7 +256,8 @@ TEST_F(MapCommandsTest, MergeRefusesWhatDoesNotFit) {
               AllOf(HasSubstr("finer.csom: "), HasSubstr("resolution 0.25"), HasSubstr("0.1")));
   EXPECT_THAT(errorsOf(1, {"merge", map_, folder_ / "missing.csom", "-o", out}),
               HasSubstr("missing.csom: no such file"));
-  EXPECT_THAT(errorsOf(1, {"merge", map_, map_, "-o", "/nowhere/out.csom"}),
+  saveMap(otherDocument(), folder_ / "other.csom");
+  EXPECT_THAT(errorsOf(1, {"merge", map_, folder_ / "other.csom", "-o", "/nowhere/out.csom"}),
               HasSubstr("/nowhere/out.csom: cannot be written"));
   EXPECT_NE(errorsOf(2, {"merge", map_, "-o", out}), "");
   EXPECT_NE(errorsOf(2, {"merge", map_, map_}), "");

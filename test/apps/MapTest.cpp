@@ -80,8 +80,9 @@ TEST_F(Map, TakesASimplemapInPlaceOfARawlog) {
 TEST_F(Map, ReplacesTheFilesOfAnEarlierRun) {
   ASSERT_EQ(runCsom(folder.path(), {"map", log, "-c", config, "-o", folder / "out"}).exit_code, 0);
   const auto before = digest(folder / "out/map.csom");
-  ASSERT_EQ(runCsom(folder.path(), {"map", log, log, "-c", config, "-o", folder / "out"}).exit_code,
-            0);
+  const std::string more = writeLog(folder / "more.rawlog", driveEntries(4));
+  ASSERT_EQ(
+      runCsom(folder.path(), {"map", log, more, "-c", config, "-o", folder / "out"}).exit_code, 0);
   EXPECT_NE(digest(folder / "out/map.csom"), before);
   ASSERT_EQ(runCsom(folder.path(), {"map", folder / "missing", "-c", config, "-o", folder / "out"})
                 .exit_code,

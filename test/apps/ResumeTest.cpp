@@ -3,6 +3,7 @@
 #include <csom/io/MapRepair.h>
 #include <csom/io/MapStore.h>
 
+#include <algorithm>
 #include <chrono>
 #include <random>
 #include <thread>
@@ -44,8 +45,8 @@ class Resume : public testing::Test {
     return words;
   }
 
-  /// The same drive in files of different content, as no log may be mapped twice: an empty member of
-  /// gzip behind it has another time.
+  /// The same drive in files of different content, as no log may be mapped twice: an empty member
+  /// of gzip behind it has another time.
   std::string drive(int number) const {
     if (number == 0) return shipped("rawlogs/campus.rawlog");
     const std::string file = folder / ("drive" + std::to_string(number) + ".rawlog");
@@ -243,8 +244,10 @@ TEST_F(Resume, OneWritesAndOthersRead) {
 TEST_F(Resume, RefusesOtherInputs) {
   const std::string log = folder / "log.rawlog";
   std::filesystem::copy_file(shipped("rawlogs/campus.rawlog"), log);
-  RunningProgram run(folder.path(), {"map", log, log, log, log, log, log, log, log, "-c", config,
-                                     "-o", out, "--checkpoint", "0"});
+  std::vector<std::string> words = command(8);
+  words.push_back(log);
+  words.erase(std::find(words.begin(), words.end(), shipped("rawlogs/campus.rawlog")));
+  RunningProgram run(folder.path(), words);
   ASSERT_TRUE(waitForScan(run));
   run.send(SIGINT);
   ASSERT_EQ(run.wait().exit_code, 130);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Data from the field makes the right map or is refused with the reason: nothing is wrong in silence.
-// Each test is a kind of fault that once made a wrong map with exit code 0.
+// Data from the field makes the right map or is refused with the reason: nothing is wrong in
+// silence. Each test is a kind of fault that once made a wrong map with exit code 0.
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
@@ -54,9 +54,7 @@ class RightOrRefused : public testing::Test {
     EXPECT_FALSE(fs::exists(folder / "out/map.csom"));
     return run.errors;
   }
-  json totals() const {
-    return json::parse(readBytes(folder / "out/run.json")).at("totals");
-  }
+  json totals() const { return json::parse(readBytes(folder / "out/run.json")).at("totals"); }
   /// A map of free and occupied voxels of 0.1 m, with free space.
   std::string occupancyConfig(const std::string& keys = "") const {
     writeBytes(folder / "occupancy.ini",
@@ -132,8 +130,8 @@ TEST_F(RightOrRefused, A1_ImportSaysWhereLabelsComeFromAndWhichFieldsThereAre) {
   EXPECT_THAT(labelsOf("Label"), HasSubstr("labels: the field 'Label'"));
   EXPECT_THAT(labelsOf(""), HasSubstr("labels: none; the fields are x, y, z;"));
   for (const char* field : {"classification", "class", "SEMANTIC", "labels"})
-    EXPECT_THAT(labelsOf(field), AllOf(HasSubstr("labels: none"), HasSubstr("--labels " +
-                                                                            std::string(field))));
+    EXPECT_THAT(labelsOf(field),
+                AllOf(HasSubstr("labels: none"), HasSubstr("--labels " + std::string(field))));
   EXPECT_THAT(labelsOf("Classification", {"--labels", "classification"}),
               HasSubstr("labels: the field 'Classification'"));
   EXPECT_THAT(labelsOf("class", {"--labels", "semantic"}),
@@ -143,8 +141,8 @@ TEST_F(RightOrRefused, A1_ImportSaysWhereLabelsComeFromAndWhichFieldsThereAre) {
 TEST_F(RightOrRefused, A1_FilesWithAndWithoutLabelsAreNotMixed) {
   writeBytes(folder / "1.pcd", wallPcd("label", "3"));
   writeBytes(folder / "2.pcd", wallPcd("intensity", "3"));
-  const auto run = csom({"import", "pcd", folder / "1.pcd", folder / "2.pcd", "-o",
-                         folder / "x.rawlog"});
+  const auto run =
+      csom({"import", "pcd", folder / "1.pcd", folder / "2.pcd", "-o", folder / "x.rawlog"});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.errors, HasSubstr("2.pcd: has no labels, but " + (folder / "1.pcd") +
                                     " has the field 'label'"));
@@ -218,8 +216,8 @@ TEST_F(RightOrRefused, A1_LabelsThatMeanFreeAreRejectedByNameInEveryPath) {
   for (const mrpt::obs::CObservation::Ptr& observation :
        {mrpt::obs::CObservation::Ptr(cloud),
         mrpt::obs::CObservation::Ptr(velodyneCloud({{2, 0, 0}, {2, 0.2f, 0}}, 0)),
-        mrpt::obs::CObservation::Ptr(ring({200, 200, 200})),
-        mrpt::obs::CObservation::Ptr(camera), mrpt::obs::CObservation::Ptr(named_camera)}) {
+        mrpt::obs::CObservation::Ptr(ring({200, 200, 200})), mrpt::obs::CObservation::Ptr(camera),
+        mrpt::obs::CObservation::Ptr(named_camera)}) {
     SCOPED_TRACE(observation->GetRuntimeClass()->className);
     const std::string log = logOf(folder / "a.rawlog", observation);
     EXPECT_THAT(refusalOf({log, "-c", config}),
@@ -257,10 +255,11 @@ TEST_F(RightOrRefused, A2_BeamsThatHitNothingAreNoHitsWhateverTheKindOfObservati
   depth->maxRange = 5.0f;
   auto points = mrpt::obs::CObservation3DRangeScan::Create();
   points->hasPoints3D = true;
-  points->maxRange = 5.0f;
-  points->points3D_x = {1, 0, 9};
+  points->points3D_x = {1, 0, 0};
   points->points3D_y = {0, 0, 0};
   points->points3D_z = {0, 0, 0};
+  points->points3D_idxs_x = {0, 1, 2};
+  points->points3D_idxs_y = {0, 0, 0};
   auto velodyne = velodyneCloud({{5, 0, 0}, {0, 0, 0}, {400, 0, 0}}, 1);
   auto cloud = mrpt::maps::CSimplePointsMap::Create();
   cloud->insertPoint(0, 0, 0);
@@ -326,8 +325,7 @@ std::string numbered(int number, int digits) {
 std::string kittiPoses(int lines, const std::set<int>& blank = {}) {
   std::string text;
   for (int i = 0; i < lines; ++i)
-    text += blank.count(i) > 0 ? "\n"
-                               : "1 0 0 " + std::to_string(10 * i) + " 0 1 0 0 0 0 1 0\n";
+    text += blank.count(i) > 0 ? "\n" : "1 0 0 " + std::to_string(10 * i) + " 0 1 0 0 0 0 1 0\n";
   return text;
 }
 
@@ -350,8 +348,7 @@ class DataSets : public RightOrRefused {
       ASSERT_TRUE(cv::imwrite(drive + "/image_02/data/" + numbered(frame, 10) + extension,
                               cv::Mat(24, 64, CV_8UC3, cv::Scalar(10, 200, 30))));
     fs::create_directories(drive + "/calib");
-    writeBytes(drive + "/calib/calib_velo_to_cam.txt",
-               "R: 0 -1 0 0 0 -1 1 0 0\nT: 0 0 0\n");
+    writeBytes(drive + "/calib/calib_velo_to_cam.txt", "R: 0 -1 0 0 0 -1 1 0 0\nT: 0 0 0\n");
     std::string cameras = "R_rect_00: 1 0 0 0 1 0 0 0 1\n";
     cameras += "P_rect_02: 30 0 32 0 0 30 12 0 0 0 1 0\nS_rect_02: 64 24\n";
     writeBytes(drive + "/calib/calib_cam_to_cam.txt", cameras);
@@ -389,7 +386,8 @@ TEST_F(DataSets, A3_TimesAreThoseOfTheirLineAlsoBehindBlankOnes) {
   addScans({0, 1, 2, 5, 6});
   writeBytes(drive + "/velodyne_points/timestamps.txt", "0.0\n0.1\n0.2\n\n\n0.5\n0.6\n");
   ASSERT_EQ(importDrive().exit_code, 0);
-  EXPECT_THAT(timesOf("velodyne"), ElementsAre(near(0), near(0.1), near(0.2), near(0.5), near(0.6)));
+  EXPECT_THAT(timesOf("velodyne"),
+              ElementsAre(near(0), near(0.1), near(0.2), near(0.5), near(0.6)));
   ASSERT_EQ(importDrive({"--scans", "0:4"}).exit_code, 0);
   EXPECT_THAT(timesOf("velodyne"), ElementsAre(near(0), near(0.1), near(0.2), near(0.5)));
   writeBytes(drive + "/velodyne_points/timestamps.txt", "0.0\n0.1\n\n\n\n0.5\n0.6\n");
@@ -400,7 +398,8 @@ TEST_F(DataSets, A3_TimesAreThoseOfTheirLineAlsoBehindBlankOnes) {
   writeBytes(sequence + "/poses.txt", kittiPoses(7));
   writeBytes(sequence + "/times.txt", "0.0\n0.1\n0.2\n\n\n0.5\n0.6\n");
   ASSERT_EQ(csom({"import", "semantickitti", sequence, "-o", log}).exit_code, 0);
-  EXPECT_THAT(timesOf("velodyne"), ElementsAre(near(0), near(0.1), near(0.2), near(0.5), near(0.6)));
+  EXPECT_THAT(timesOf("velodyne"),
+              ElementsAre(near(0), near(0.1), near(0.2), near(0.5), near(0.6)));
 }
 
 TEST_F(DataSets, A3_PosesAreThoseOfTheirLineAlsoBehindBlankOnes) {
@@ -440,6 +439,19 @@ TEST_F(DataSets, A3_FilesWhoseNamesAreNoNumbersAreRefused) {
               HasSubstr("is frame 0, and so is"));
 }
 
+TEST_F(DataSets, C_FilesThatCannotBeReadAreNotPassedOver) {
+  addScans({0, 1});
+  addImages({0, 1}, ".png");
+  for (const std::string& broken :
+       {drive + "/velodyne_points/data/0000000002.bin", drive + "/image_02/data/0000000002.png"}) {
+    fs::create_symlink("/not/mounted", broken);
+    const auto run = importDrive();
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_THAT(run.errors, HasSubstr(broken + ": is a link to a file that is not there"));
+    fs::remove(broken);
+  }
+}
+
 TEST_F(DataSets, A4_KittiPosesGoByTheNumbersOfFrames) {
   addScans({0, 1, 2, 5, 6, 7});
   writeBytes(folder / "p8.txt", kittiPoses(8));
@@ -466,9 +478,9 @@ TEST_F(DataSets, A4_CountsThatDoNotFitStopTheRun) {
   const std::string config = occupancyConfig();
   for (const int lines : {3, 5}) {
     writeBytes(folder / "p.txt", kittiPoses(lines));
-    EXPECT_THAT(refusalOf({log, "-c", config, "--poses", "kitti:" + (folder / "p.txt")}),
-                AllOf(HasSubstr("has " + std::to_string(lines) + " poses"),
-                      HasSubstr("4 of 'lidar'")));
+    EXPECT_THAT(
+        refusalOf({log, "-c", config, "--poses", "kitti:" + (folder / "p.txt")}),
+        AllOf(HasSubstr("has " + std::to_string(lines) + " poses"), HasSubstr("4 of 'lidar'")));
   }
   writeBytes(folder / "p.txt", kittiPoses(4));
   EXPECT_THAT(originsOf(mapOf({log, "-c", config, "--poses", "kitti:" + (folder / "p.txt")})),
@@ -480,8 +492,8 @@ TEST_F(DataSets, A4_LabelsThatAreNotThoseOfTheirScanStopTheImport) {
   writeBytes(sequence + "/poses.txt", kittiPoses(2));
   fs::create_directories(sequence + "/labels");
   writeBytes(sequence + "/labels/000000.label", std::string(20 * 4, '\0'));
-  std::vector<std::string> command{"import", "semantickitti", sequence, "--labels", "labels",
-                                   "-o",     log};
+  std::vector<std::string> command{"import", "semantickitti", sequence, "--labels", "labels", "-o",
+                                   log};
   EXPECT_THAT(csom(command).errors, HasSubstr("000001.label: no such file"));
   writeBytes(sequence + "/labels/000001.label", std::string(19 * 4, '\0'));
   EXPECT_THAT(csom(command).errors, HasSubstr("scan and labels do not belong together"));
@@ -493,10 +505,10 @@ TEST_F(DataSets, A4_ImagesAgainstScansAreCounted) {
   const auto import = importDrive();
   ASSERT_EQ(import.exit_code, 0) << import.errors;
   EXPECT_THAT(import.output, HasSubstr("4 scans, 80 points, 3 images"));
-  EXPECT_THAT(import.errors,
-              AllOf(HasSubstr("image_02: 1 scans have no image"), HasSubstr("frame 1"),
-                    HasSubstr("image_02: 2 images belong to frames without a scan"),
-                    HasSubstr("frame 2")));
+  EXPECT_THAT(
+      import.errors,
+      AllOf(HasSubstr("image_02: 1 scans have no image"), HasSubstr("frame 1"),
+            HasSubstr("image_02: 2 images belong to frames without a scan"), HasSubstr("frame 2")));
 }
 
 TEST_F(DataSets, A7_JpegDrivesAreRead) {
@@ -507,8 +519,7 @@ TEST_F(DataSets, A7_JpegDrivesAreRead) {
     for (const bool embedded : {false, true}) {
       SCOPED_TRACE(std::string(extension) + (embedded ? " embedded" : ""));
       fs::remove_all(folder / "x_Images");
-      const auto import =
-          embedded ? importDrive({"--embed-images"}) : importDrive();
+      const auto import = embedded ? importDrive({"--embed-images"}) : importDrive();
       ASSERT_EQ(import.exit_code, 0) << import.errors;
       EXPECT_THAT(import.output, HasSubstr("2 images"));
       EXPECT_THAT(import.errorLines(), testing::IsEmpty());
@@ -531,7 +542,8 @@ TEST_F(RightOrRefused, A5_PosesAreNotInterpolatedAcrossGaps) {
   // In the middle of a trajectory: what lies in the gap is refused, the rest is mapped.
   std::string tum;
   for (int i = 0; i <= 9; ++i)
-    if (i < 3 || i > 6) tum += std::to_string(1000 + 0.1 * i) + " " + std::to_string(i) + " 0 0 0 0 0 1\n";
+    if (i < 3 || i > 6)
+      tum += std::to_string(1000 + 0.1 * i) + " " + std::to_string(i) + " 0 0 0 0 0 1\n";
   for (int i = 0; i < 10; ++i)
     tum += std::to_string(1030 + 0.1 * i) + " " + std::to_string(i) + " 0 0 0 0 0 1\n";
   writeBytes(folder / "some.tum", tum);
@@ -540,8 +552,8 @@ TEST_F(RightOrRefused, A5_PosesAreNotInterpolatedAcrossGaps) {
   const MapDocument document =
       mapOf({log, "-c", config, "--poses", "tum:" + (folder / "some.tum")});
   EXPECT_EQ(document.scans.size(), 10u) << "0.4 s are no gap, 29 s are";
-  EXPECT_THAT(warnings, AllOf(HasSubstr("1 observations have no pose"),
-                              HasSubstr("1000.900 to 1030.000")));
+  EXPECT_THAT(warnings,
+              AllOf(HasSubstr("1 observations have no pose"), HasSubstr("1000.900 to 1030.000")));
 }
 
 TEST_F(RightOrRefused, A5_PosesOfTheLogHaveGapsToo) {
@@ -574,7 +586,8 @@ TEST_F(RightOrRefused, A5_AGapFarBeyondTheScansOwnSpacingIsWarnedOf) {
                               HasSubstr("observations are 0.100 s apart")));
 }
 
-// --- A6: the ini language is MRPT's ---------------------------------------------------------------
+// --- A6: the ini language is MRPT's
+// ---------------------------------------------------------------
 
 class IniLanguage : public RightOrRefused {
  protected:
@@ -590,18 +603,17 @@ class IniLanguage : public RightOrRefused {
 };
 
 TEST_F(IniLanguage, A6_FormulasDefinitionsAndVariablesAreReadAsMrptReadsThem) {
-  for (const auto& [head, resolution] :
-       {std::pair<std::string, std::string>{"", "$eval{0.05*4}"},
-        {"@define R 0.1\n", "$eval{R*2}"},
-        {"@define R 0.2\n", "${R}"},
-        {"", "$env{CSOM_TEST_RESOLUTION}"},
-        {"", "0.\\\n2"}}) {
+  for (const auto& [head, resolution] : {std::pair<std::string, std::string>{"", "$eval{0.05*4}"},
+                                         {"@define R 0.1\n", "$eval{R*2}"},
+                                         {"@define R 0.2\n", "${R}"},
+                                         {"", "$env{CSOM_TEST_RESOLUTION}"},
+                                         {"", "0.\\\n2"}}) {
     SCOPED_TRACE(resolution);
     const std::string config = ini(head, resolution, "method = s-csm\nblock_depth = $eval{1+2}\n");
     const std::vector<std::string> variable{"CSOM_TEST_RESOLUTION=0.2"};
     const auto run = csom({"map", log, "-c", config, "-o", folder / "out"}, variable);
     ASSERT_EQ(run.exit_code, 0) << run.errors;
-    const Options& options = loadMap(folder / "out/map.csom").map.options();
+    const Options options = loadMap(folder / "out/map.csom").map.options();
     EXPECT_DOUBLE_EQ(options.resolution, 0.2);
     EXPECT_EQ(options.block_depth, 3);
     const auto with = csom({"with", "--", "observations2map", config}, variable);
@@ -614,13 +626,14 @@ TEST_F(IniLanguage, A6_KeysAndSectionsGivenTwiceAreErrorsThatNameBothLines) {
               AllOf(HasSubstr("Resolution is given twice"), HasSubstr("line 5 and in line 6")));
   EXPECT_THAT(refusalOf({log, "-c", ini("", "0.\\\n2\nlabel_set = stanford")}),
               AllOf(HasSubstr("label_set is given twice"), HasSubstr("line 4 and in line 7")));
+  EXPECT_THAT(refusalOf({log, "-c",
+                         ini("", "0.2",
+                             "method = s-csm\n" + std::string(kSection) +
+                                 "creationOpts]\nenableSaveAs3DObject = true\n")}),
+              AllOf(HasSubstr("creationOpts] is given twice"), HasSubstr("line 3 and in line 9")));
   EXPECT_THAT(
-      refusalOf({log, "-c", ini("", "0.2", "method = s-csm\n" + std::string(kSection) +
-                                               "creationOpts]\nenableSaveAs3DObject = true\n")}),
-      AllOf(HasSubstr("creationOpts] is given twice"), HasSubstr("line 3 and in line 9")));
-  EXPECT_THAT(refusalOf({log, "-c", ini("[MappingApplication]\n", "0.2")}),
-              AllOf(HasSubstr("[MappingApplication] is given twice"),
-                    HasSubstr("line 1 and in line 2")));
+      refusalOf({log, "-c", ini("[MappingApplication]\n", "0.2")}),
+      AllOf(HasSubstr("[MappingApplication] is given twice"), HasSubstr("line 1 and in line 2")));
   const auto with = csom({"with", "--", "observations2map", ini("", "0.2\nresolution = 0.1")});
   EXPECT_EQ(with.exit_code, 2);
   EXPECT_THAT(with.errors, HasSubstr("line 5 and in line 6"));
@@ -628,7 +641,8 @@ TEST_F(IniLanguage, A6_KeysAndSectionsGivenTwiceAreErrorsThatNameBothLines) {
   EXPECT_EQ(mapOf({log, "-c", ini("[Other]\na = 1\na = 2\n", "0.2")}).scans.size(), 2u);
 }
 
-// --- A8: refusals say why and what to do ------------------------------------------------------------
+// --- A8: refusals say why and what to do
+// ------------------------------------------------------------
 
 TEST_F(RightOrRefused, A8_ACameraThatLooksPastThePointsIsNamedWithItsDirection) {
   auto labels = mrpt::obs::CObservationImage::Create();
@@ -639,8 +653,8 @@ TEST_F(RightOrRefused, A8_ACameraThatLooksPastThePointsIsNamedWithItsDirection) 
   labels->cameraParams.ncols = 64;
   labels->cameraParams.nrows = 48;
   labels->cameraParams.setIntrinsicParamsFromValues(60, 60, 32, 24);
-  const std::string log = writeLog(
-      folder / "a.rawlog", {robotPose(100, CPose3D()), labels, wallCloud(100)});
+  const std::string log =
+      writeLog(folder / "a.rawlog", {robotPose(100, CPose3D()), labels, wallCloud(100)});
   writeConfig(folder, "method = s-csm\n" + std::string(kSection) +
                           "labelSource_00]\nsensor_label = camera\nsource = label_image\n"
                           "label_image = ids\n" +
@@ -672,9 +686,9 @@ TEST_F(RightOrRefused, A8_TimesInAnotherUnitAreNamedWithBothSpans) {
 }
 
 TEST_F(RightOrRefused, A8_CoordinatesOfACountrysGridAreNamedWithTheLimit) {
-  const std::string log = writeLog(
-      folder / "a.rawlog",
-      {robotPose(100, {455000.25, 4438000.75, 100.0, 0.0, 0.0, 0.0}), wallCloud(100)});
+  const std::string log =
+      writeLog(folder / "a.rawlog",
+               {robotPose(100, {455000.25, 4438000.75, 100.0, 0.0, 0.0, 0.0}), wallCloud(100)});
   EXPECT_THAT(refusalOf({log, "-c", occupancyConfig()}),
               AllOf(HasSubstr("with voxels of 0.1 m a map reaches 839 km"),
                     HasSubstr("the robot was at (455000.2, 4438000.8, 100.0)"),
@@ -689,7 +703,8 @@ TEST_F(RightOrRefused, A8_CoordinatesOfACountrysGridAreNamedWithTheLimit) {
                                    HasSubstr("subtract one offset")));
 }
 
-// --- A9: points that no camera sees are obstacles too -----------------------------------------------
+// --- A9: points that no camera sees are obstacles too
+// -----------------------------------------------
 
 TEST_F(RightOrRefused, A9_TheShippedCameraConfigurationsKeepWhatNoCameraSees) {
   for (const char* name : {"campus-camera.ini", "kitti-raw.ini"})

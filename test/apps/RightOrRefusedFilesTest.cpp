@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files and processes: nothing is lost, counted twice, run or written elsewhere in silence. Each test
-// is a kind of fault that once was.
+// Files and processes: nothing is lost, counted twice, run or written elsewhere in silence. Each
+// test is a kind of fault that once was.
 #include <csom/io/MapRepair.h>
 #include <csom/io/MapStore.h>
 #include <sqlite3.h>
@@ -53,7 +53,8 @@ class RightOrRefusedFiles : public testing::Test {
   const std::string map = folder / "map.csom";
 };
 
-// --- B1: repair and the write-ahead log -------------------------------------------------------------
+// --- B1: repair and the write-ahead log
+// -------------------------------------------------------------
 
 class WriteAheadLog : public RightOrRefusedFiles {
  protected:
@@ -105,12 +106,13 @@ TEST_F(WriteAheadLog, B1_ALogThatIsDamagedIsALossThatIsTold) {
     const auto run = csom({"repair", map, folder / "saved.csom"});
     if (run.exit_code != 0) continue;
     if (mapDigest(loadMap(folder / "saved.csom").map) == mapDigest(sampleMap())) continue;
-    EXPECT_THAT(run.output, AllOf(HasSubstr("may be lost, as the log"),
-                                  Not(HasSubstr("no voxel is lost"))));
+    EXPECT_THAT(run.output,
+                AllOf(HasSubstr("may be lost, as the log"), Not(HasSubstr("no voxel is lost"))));
   }
 }
 
-// --- B2: a path is a path ----------------------------------------------------------------------------
+// --- B2: a path is a path
+// ----------------------------------------------------------------------------
 
 TEST_F(RightOrRefusedFiles, B2_PathsThatLookLikeUrisAreFiles) {
   saveMap(sampleDocument(), folder / "a.csom");
@@ -120,8 +122,7 @@ TEST_F(RightOrRefusedFiles, B2_PathsThatLookLikeUrisAreFiles) {
   const std::string csom = csomWord();
   for (const char* name : {"file:m.csom", "file:m.csom?mode=memory", ":memory:"}) {
     SCOPED_TRACE(name);
-    const auto merge =
-        shell(csom + " merge a.csom b.csom -o " + shellQuoted(name));
+    const auto merge = shell(csom + " merge a.csom b.csom -o " + shellQuoted(name));
     ASSERT_EQ(merge.exit_code, 0) << merge.errors;
     EXPECT_THAT(folder.fileNames(), UnorderedElementsAre("a.csom", "b.csom", name));
     const auto info = shell(csom + " info " + shellQuoted(name));
@@ -146,7 +147,8 @@ TEST_F(RightOrRefusedFiles, B2_ARunMayWriteToAFolderThatLooksLikeAUri) {
               UnorderedElementsAre("a.rawlog", "file:out", "labels.yaml", "map.ini"));
 }
 
-// --- B3: exports of nothing ------------------------------------------------------------------------------
+// --- B3: exports of nothing
+// ------------------------------------------------------------------------------
 
 TEST_F(RightOrRefusedFiles, B3_ASelectionThatTheExportsGridMissesIsRefusedInEveryFormat) {
   saveMap(sampleDocument(), map);
@@ -165,12 +167,16 @@ TEST_F(RightOrRefusedFiles, B3_ASelectionThatTheExportsGridMissesIsRefusedInEver
   const double half = std::sqrt(0.5);
   frame = std::to_string(-half * (center.x() - center.y())) + "," +
           std::to_string(-half * (center.x() + center.y())) + ",0,45,0,0";
-  for (const auto& [format, file] : std::vector<std::pair<std::string, std::string>>{
-           {"octomap", "x.ot"}, {"octomap", "x.bt"}, {"vdb", "x.vdb"}, {"glb", "x.glb"},
-           {"nav2", "x.yaml"}, {"gridmap", "x.gridmap"}}) {
+  for (const auto& [format, file] :
+       std::vector<std::pair<std::string, std::string>>{{"octomap", "x.ot"},
+                                                        {"octomap", "x.bt"},
+                                                        {"vdb", "x.vdb"},
+                                                        {"glb", "x.glb"},
+                                                        {"nav2", "x.yaml"},
+                                                        {"gridmap", "x.gridmap"}}) {
     SCOPED_TRACE(file);
-    std::vector<std::string> command{"export", map,     "--to",    format, "-o",
-                                     folder / file, "--box", box, "--frame", frame};
+    std::vector<std::string> command{"export",      map,     "--to", format,    "-o",
+                                     folder / file, "--box", box,    "--frame", frame};
     if (format == "nav2" || format == "gridmap")
       command.insert(command.end(), {"--traversable", "road"});
     const auto run = csom(command);
@@ -180,7 +186,8 @@ TEST_F(RightOrRefusedFiles, B3_ASelectionThatTheExportsGridMissesIsRefusedInEver
   }
 }
 
-// --- B4: boxes ---------------------------------------------------------------------------------------------
+// --- B4: boxes
+// ---------------------------------------------------------------------------------------------
 
 TEST_F(RightOrRefusedFiles, B4_CentresThatAnExportPrintsLieInABoxMadeOfThem) {
   MapDocument document = sampleDocument();
@@ -209,14 +216,15 @@ TEST_F(RightOrRefusedFiles, B4_CentresThatAnExportPrintsLieInABoxMadeOfThem) {
     const auto query = csom({"query", map, "--box", center + "," + center, "--json"});
     ASSERT_EQ(query.exit_code, 0) << query.errors;
     EXPECT_EQ(nlohmann::json::parse(query.output).at("known_voxels"), 1) << center;
-    const auto part =
-        csom({"export", map, "--to", "csv", "-o", folder / "one.csv", "--box", center + "," + center});
+    const auto part = csom(
+        {"export", map, "--to", "csv", "-o", folder / "one.csv", "--box", center + "," + center});
     EXPECT_EQ(part.exit_code, 0) << center << ": " << part.errors;
   }
   EXPECT_EQ(voxels, 40);
 }
 
-// --- B5: schemas ------------------------------------------------------------------------------------------------
+// --- B5: schemas
+// ------------------------------------------------------------------------------------------------
 
 TEST_F(RightOrRefusedFiles, B5_AMapWithAnotherSchemaIsRefusedAndNothingInItRuns) {
   struct Case {
@@ -229,15 +237,14 @@ TEST_F(RightOrRefusedFiles, B5_AMapWithAnotherSchemaIsRefusedAndNothingInItRuns)
       "CREATE TABLE chunks (x INTEGER NOT NULL, y INTEGER NOT NULL, z INTEGER NOT NULL, "
       "hash INTEGER NOT NULL, record BLOB NOT NULL); INSERT INTO chunks SELECT * FROM old;";
   for (const Case& c : {
-           Case{"trigger",
-                "CREATE TRIGGER t AFTER INSERT ON resume BEGIN DELETE FROM chunks; END",
+           Case{"trigger", "CREATE TRIGGER t AFTER INSERT ON resume BEGIN DELETE FROM chunks; END",
                 "has a trigger 't'"},
            Case{"view", "CREATE VIEW v AS SELECT * FROM chunks", "has a view 'v'"},
            Case{"table", "CREATE TABLE extra (x)", "has a table 'extra'"},
            Case{"index", "CREATE INDEX i ON scans (points)", "has a index 'i'"},
            Case{"view instead of a table",
-                "ALTER TABLE labels RENAME TO old; CREATE VIEW labels AS SELECT yaml FROM old",
-                "is not made as csom makes it"},
+                "DROP TABLE labels; CREATE VIEW labels AS SELECT value AS yaml FROM meta",
+                "table labels is not made as csom makes it"},
            Case{"generated column",
                 "DROP TABLE chunks; CREATE TABLE chunks (x INTEGER NOT NULL, y INTEGER NOT NULL, "
                 "z INTEGER NOT NULL, hash INTEGER NOT NULL, record BLOB NOT NULL GENERATED ALWAYS "
@@ -291,7 +298,8 @@ TEST_F(RightOrRefusedFiles, B5_TheDigestThatInfoPrintsIsThatOfTheFile) {
   EXPECT_THAT(changed.errors, HasSubstr("its chunks have digest " + mapDigest(sampleMap())));
 }
 
-// --- B6: what a run is resumed with ----------------------------------------------------------------------------
+// --- B6: what a run is resumed with
+// ----------------------------------------------------------------------------
 
 class Resumed : public RightOrRefusedFiles {
  protected:
@@ -299,11 +307,12 @@ class Resumed : public RightOrRefusedFiles {
   void stopARun(const std::vector<std::string>& more = {}, int signal = SIGTERM) const {
     writeConfig(folder, "method = s-csm\n");
     if (!fs::exists(log)) writeLog(log, driveEntries(400));
-    std::vector<std::string> command{"map", log, "-c", folder / "map.ini", "-o", folder / "out",
-                                     "--checkpoint", "0"};
+    std::vector<std::string> command{
+        "map", log, "-c", folder / "map.ini", "-o", folder / "out", "--checkpoint", "0"};
     command.insert(command.end(), more.begin(), more.end());
     RunningProgram run(folder.path(), command);
-    while (run.isRunning() && !hasScans()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    while (run.isRunning() && !hasScans())
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     run.send(signal);
     const ProgramResult result = run.wait();
     ASSERT_EQ(result.exit_code, 130) << result.errors;
@@ -326,8 +335,8 @@ TEST_F(Resumed, B6_OutputsOutsideOfTheFolderComeFromTheCommandLine) {
   EXPECT_EQ(without.exit_code, 2);
   EXPECT_THAT(without.errors, AllOf(HasSubstr("first.simplemap"), HasSubstr("--write-simplemap")));
   EXPECT_FALSE(fs::exists(folder / "first.simplemap"));
-  const auto run = csom(
-      {"map", "--resume", folder / "out", "--write-simplemap", folder / "second.simplemap"});
+  const auto run =
+      csom({"map", "--resume", folder / "out", "--write-simplemap", folder / "second.simplemap"});
   EXPECT_EQ(run.exit_code, 0) << run.errors;
   EXPECT_TRUE(fs::exists(folder / "second.simplemap"));
   EXPECT_FALSE(fs::exists(folder / "first.simplemap"));
@@ -353,7 +362,8 @@ TEST_F(Resumed, B6_ATriggerInTheFileRunsNothing) {
   EXPECT_EQ(csom({"map", "--resume", folder / "out"}).exit_code, 0);
 }
 
-// --- B7: nothing counts twice -------------------------------------------------------------------------------------
+// --- B7: nothing counts twice
+// -------------------------------------------------------------------------------------
 
 TEST_F(RightOrRefusedFiles, B7_NoLogCountsTwice) {
   const std::string config = writeConfig(folder);
@@ -376,9 +386,12 @@ TEST_F(RightOrRefusedFiles, B7_NoLogCountsTwice) {
     return csom(command);
   };
   ASSERT_EQ(merge({"a/map.csom", "b/map.csom"}, "ab.csom").exit_code, 0);
-  for (const auto& maps : std::vector<std::vector<std::string>>{
-           {"a/map.csom", "a/map.csom"}, {"a/map.csom", "b/map.csom", "c/map.csom"},
-           {"a/map.csom", "other/map.csom"}, {"ab.csom", "a/map.csom"}, {"b/map.csom", "ab.csom"}}) {
+  for (const auto& maps :
+       std::vector<std::vector<std::string>>{{"a/map.csom", "a/map.csom"},
+                                             {"a/map.csom", "b/map.csom", "c/map.csom"},
+                                             {"a/map.csom", "other/map.csom"},
+                                             {"ab.csom", "a/map.csom"},
+                                             {"b/map.csom", "ab.csom"}}) {
     const auto run = merge(maps, "twice.csom");
     EXPECT_EQ(run.exit_code, 1) << maps[0] << " " << maps[1];
     EXPECT_THAT(run.errors, HasSubstr("count twice"));
@@ -399,7 +412,8 @@ TEST_F(RightOrRefusedFiles, B7_MapsOfOtherProgramsAreKnownByTheirContent) {
   EXPECT_THAT(run.errors, HasSubstr("is the same map as"));
 }
 
-// --- B8: signals, full devices, texts ----------------------------------------------------------------------------
+// --- B8: signals, full devices, texts
+// ----------------------------------------------------------------------------
 
 TEST_F(Resumed, B8_AClosedTerminalIsAsAWishToStop) {
   stopARun({}, SIGHUP);
@@ -407,58 +421,105 @@ TEST_F(Resumed, B8_AClosedTerminalIsAsAWishToStop) {
   EXPECT_EQ(loadMap(folder / "out/map.csom").scans.size(), 400u);
 }
 
+/// So many voxels that writing them takes a while.
+MapDocument largeDocument(int seed) {
+  MapDocument document = sampleDocument();
+  Options options = document.map.options();
+  options.method = Method::SCsm;
+  options.free_space = FreeSpace::None;
+  options.resolution = 0.1;
+  document.map = SemanticMap(options);
+  std::mt19937 random(static_cast<unsigned>(seed));
+  std::uniform_real_distribution<float> within(-20, 20);
+  Scan scan;
+  for (int i = 0; i < 200000; ++i) {
+    scan.points.emplace_back(within(random), within(random), within(random) / 10);
+    scan.labels.push_back(1);
+  }
+  document.map.insert(scan);
+  return document;
+}
+
 TEST_F(RightOrRefusedFiles, B8_SignalsLeaveNoTemporaryFilesInAnyCommand) {
+  saveMap(largeDocument(1), map);
+  saveMap(largeDocument(2), folder / "more.csom");
   writeConfig(folder, "method = s-csm\n");
-  writeLog(folder / "a.rawlog", driveEntries(150));
-  ASSERT_EQ(csom({"map", folder / "a.rawlog", "-c", folder / "map.ini", "-o", folder / "run"})
-                .exit_code,
-            0);
-  MapDocument document = loadMap(folder / "run/map.csom");
-  document.meta.clear();
-  document.map.merge(document.map);
-  saveMap(document, folder / "more.csom");
+  writeLog(folder / "a.rawlog", driveEntries(300));
+  ASSERT_EQ(
+      csom({"map", folder / "a.rawlog", "-c", folder / "map.ini", "-o", folder / "run"}).exit_code,
+      0);
+  fs::create_directories(folder / "drive/velodyne_points/data");
+  for (int i = 0; i < 300; ++i) {
+    const std::string number = std::to_string(1000000000 + i).substr(1);
+    writeBytes(folder / ("drive/velodyne_points/data/0" + number + ".bin"),
+               std::string(16 * 20000, '\x3f'));
+  }
   fs::create_directory(folder / "temporary");
   const std::string world = CSOM_SOURCE_DIR "/config/worlds/doorways.yaml";
-  const std::string map_file = folder / "run/map.csom";
+  const auto exported = [&](const char* format, const std::string& name) {
+    return std::vector<std::string>{"export", map, "--to", format, "-o", folder / ("o/" + name)};
+  };
   const std::vector<std::pair<std::vector<std::string>, std::string>> commands{
-      {{"export", map_file, "--to", "npz", "-o", folder / "o/x.npz"}, "x.npz"},
-      {{"export", map_file, "--to", "ply", "-o", folder / "o/x.ply"}, "x.ply"},
-      {{"export", map_file, "--to", "vdb", "-o", folder / "o/x.vdb"}, "x.vdb"},
-      {{"merge", map_file, folder / "more.csom", "-o", folder / "o/x.csom"}, "x.csom"},
-      {{"repair", map_file, folder / "o/x.csom"}, "x.csom"},
+      {exported("npz", "x.npz"), "x.npz"},
+      {exported("ply", "x.ply"), "x.ply"},
+      {exported("csv", "x.csv"), "x.csv"},
+      {exported("vdb", "x.vdb"), "x.vdb"},
+      {exported("octomap", "x.ot"), "x.ot"},
+      {exported("glb", "x.glb"), "x.glb"},
+      {exported("points", "x.map"), "x.map"},
+      {{"merge", map, folder / "more.csom", "-o", folder / "o/x.csom"}, "x.csom"},
+      {{"repair", map, folder / "o/x.csom"}, "x.csom"},
       {{"report", folder / "run", "-o", folder / "o/report"}, "report"},
       {{"simulate", world, "-o", folder / "o/x.rawlog"}, "x.rawlog"},
+      {{"import", "kitti-raw", folder / "drive", "-o", folder / "o/x.rawlog"}, "x.rawlog"},
+      {{"eval", "run", "P4", "-o", folder / "o/tables"}, "tables"},
       {{"map", folder / "a.rawlog", "-c", folder / "map.ini", "-o", folder / "o/out"}, "out"},
   };
-  std::mt19937 random(4);
+  const auto namesIn = [](const std::string& path) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (fs::recursive_directory_iterator at(path, error), end; !error && at != end;
+         at.increment(error))
+      names.push_back(at->path().filename().string());
+    return names;
+  };
   ::setenv("TMPDIR", (folder / "temporary").c_str(), 1);
-  int interrupted = 0;
+  int caught = 0;
   for (const auto& [command, result] : commands) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-      for (int i = 0; i < 4; ++i) {
-        SCOPED_TRACE(command[0] + " " + command[1] + ", signal " + std::to_string(signal));
-        fs::remove_all(folder / "o");
-        fs::create_directory(folder / "o");
-        RunningProgram run(folder.path(), command);
-        std::this_thread::sleep_for(std::chrono::microseconds(20000 + random() % 120000));
-        run.send(signal);
-        if (command[0] == "map") run.send(signal);  // the first one asks it to finish the scan
-        const ProgramResult end = run.wait();
-        interrupted += end.exit_code != 0 ? 1 : 0;
-        std::vector<std::string> left;
-        for (const auto& entry : fs::directory_iterator(folder / "o"))
-          left.push_back(entry.path().filename().string());
-        EXPECT_THAT(left, AnyOf(IsEmpty(), ElementsAre(result))) << end.errors;
-        if (fs::is_directory(folder / ("o/" + result))) {
-          for (const auto& entry : fs::directory_iterator(folder / ("o/" + result)))
-            EXPECT_THAT(entry.path().filename().string(), Not(HasSubstr("unfinished-")));
-        }
-        EXPECT_TRUE(fs::is_empty(folder / "temporary"));
+      SCOPED_TRACE(command[0] + " " + result + ", signal " + std::to_string(signal));
+      fs::remove_all(folder / "o");
+      fs::create_directory(folder / "o");
+      RunningProgram run(folder.path(), command);
+      // When there is something that should not stay.
+      bool unfinished = false;
+      while (!unfinished && run.isRunning()) {
+        for (const std::string& name : namesIn(folder / "o"))
+          unfinished |= name.find(".tmp") != std::string::npos || name.rfind("unfinished-", 0) == 0;
+        unfinished |= !fs::is_empty(folder / "temporary");
       }
+      run.send(signal);
+      if (command[0] == "map") {  // which finishes its scan, unless it is asked twice
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        run.send(signal);
+      }
+      const ProgramResult end = run.wait();
+      caught += unfinished && end.exit_code != 0 ? 1 : 0;
+      std::vector<std::string> left;
+      for (const auto& entry : fs::directory_iterator(folder / "o"))
+        left.push_back(entry.path().filename().string());
+      EXPECT_THAT(left, AnyOf(IsEmpty(), ElementsAre(result))) << end.errors;
+      for (const std::string& name : namesIn(folder / "o")) {
+        EXPECT_THAT(name, Not(HasSubstr(".tmp")));
+        EXPECT_FALSE(name.rfind("unfinished-", 0) == 0) << name;
+      }
+      EXPECT_THAT(namesIn(folder / "temporary"), IsEmpty());
+      fs::remove_all(folder / "temporary");
+      fs::create_directory(folder / "temporary");
     }
   }
   ::unsetenv("TMPDIR");
-  EXPECT_GT(interrupted, 20) << "or nothing has been tried out";
+  EXPECT_GT(caught, 20) << "or nothing has been tried out";
 }
 
 TEST_F(RightOrRefusedFiles, B8_TextsThatCannotBeWrittenAreFailures) {
@@ -485,14 +546,19 @@ TEST_F(RightOrRefusedFiles, B8_CellsOfACsvAreNoFormulas) {
     const auto run = csom({"export", map, "--to", "csv", "-o", folder / "x.csv"});
     ASSERT_EQ(run.exit_code, 0) << run.errors;
     const std::string csv = readBytes(folder / "x.csv");
-    EXPECT_THAT(csv, Not(HasSubstr("," + std::string(name, 1)))) << name;
-    EXPECT_THAT(csv, AnyOf(HasSubstr(",'" + std::string(name, 1)), HasSubstr(",\"'=HYPERLINK")));
+    EXPECT_FALSE(csv.find(",1," + std::string(name, 1)) != std::string::npos) << name;
+    EXPECT_FALSE(csv.find(",1,\"" + std::string(name, 1)) != std::string::npos) << name;
+    EXPECT_TRUE(csv.find(",1,'" + std::string(name, 1)) != std::string::npos ||
+                csv.find(",1,\"'=HYPERLINK") != std::string::npos)
+        << name;
   }
 }
 
 TEST_F(RightOrRefusedFiles, B8_NothingFromAFileSteersTheTerminal) {
   MapDocument document = sampleDocument();
-  document.meta["rawlog"] = "a\x1b[31mred\u202egnp.exe\u200b\xc2\x9b" "31m\x9b";
+  document.meta["rawlog"] =
+      "a\x1b[31mred\u202egnp.exe\u200b\xc2\x9b"
+      "31m\x9b";
   saveMap(document, map);
   for (const auto& run : {csom({"info", map}), csom({"merge", map, map, "-o", folder / "\x1b[2Jx"}),
                           csom({"info", folder / "no\u202ename"})}) {
@@ -505,9 +571,9 @@ TEST_F(RightOrRefusedFiles, B8_NothingFromAFileSteersTheTerminal) {
 TEST_F(RightOrRefusedFiles, B8_ARunRecordThatIsNoRegularFileIsRefused) {
   writeConfig(folder);
   writeLog(folder / "a.rawlog", driveEntries(2));
-  ASSERT_EQ(csom({"map", folder / "a.rawlog", "-c", folder / "map.ini", "-o", folder / "out"})
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      csom({"map", folder / "a.rawlog", "-c", folder / "map.ini", "-o", folder / "out"}).exit_code,
+      0);
   fs::remove(folder / "out/run.json");
   ASSERT_EQ(::mkfifo((folder / "out/run.json").c_str(), 0600), 0);
   EXPECT_THAT(csom({"report", folder / "out"}).errors,

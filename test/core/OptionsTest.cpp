@@ -70,7 +70,12 @@ TEST(Options, ErrorsNameKeyValueAndWhatIsAccepted) {
   EXPECT_THAT(messageOf("number_of_classes", "1"), HasSubstr("2 to 256"));
   EXPECT_THAT(messageOf("number_of_classes", "99999999999999"), HasSubstr("whole number"));
   EXPECT_THAT(messageOf("context_neighbours", "8"), HasSubstr("6, 18 or 26"));
-  EXPECT_THAT(messageOf("rvfm", "yes"), HasSubstr("on | off"));
+  EXPECT_THAT(messageOf("rvfm", "maybe"), HasSubstr("on | off"));
+  EXPECT_THAT(messageOf("rvfm", "2"), HasSubstr("on | off"));
+  // The words of MRPT's ini files, and what its formulas give.
+  for (const char* word : {"yes", "True", "ON", "1.000000e+00", "No", "0"})
+    EXPECT_EQ(messageOf("rvfm", word), "accepted") << word;
+  EXPECT_EQ(messageOf("block_depth", "2.000000e+00"), "accepted");
   EXPECT_THAT(messageOf("kernel_length_max", "0.1"), HasSubstr("at least kernel_length_min"));
   EXPECT_THAT(messageOf("kernel_length", "1000"), HasSubstr("kernel_length = 1000"));
   EXPECT_THAT(messageOf("prior", "0"), HasSubstr("prior = 0"));

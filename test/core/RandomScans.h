@@ -73,8 +73,8 @@ class RandomCase {
         addScores(s, o.number_of_classes);
       } else {
         s.labels.push_back(static_cast<ClassId>(integer(0, 9) == 0
-                                                    ? integer(1, o.number_of_classes - 1)
-                                                    : 1 + (i / 20) % (o.number_of_classes - 1)));
+                                                    ? integer(0, o.number_of_classes - 1)
+                                                    : (i / 20) % o.number_of_classes));
       }
     }
     return s;
@@ -95,11 +95,11 @@ class RandomCase {
   void addScores(Scan& s, int classes) {
     std::vector<double> raw(static_cast<std::size_t>(classes));
     double sum = 0;
-    for (std::size_t k = 1; k < raw.size(); ++k) {  // no return is free
-      raw[k] = integer(0, 1) == 0 ? 0 : real(0, 1);
-      sum += raw[k];
+    for (double& score : raw) {
+      score = integer(0, 1) == 0 ? 0 : real(0, 1);
+      sum += score;
     }
-    if (sum == 0) raw[1] = sum = 1;
+    if (sum == 0) raw[0] = sum = 1;
     for (const double score : raw) s.scores.push_back(static_cast<float>(score / sum));
   }
 

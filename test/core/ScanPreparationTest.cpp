@@ -212,23 +212,5 @@ TEST(ScanPreparation, LargeScansAreGroupedLikeSmallOnes) {
   }
 }
 
-TEST(ScanPreparation, A1_NoReturnIsFree) {
-  Options options;
-  options.number_of_classes = 3;
-  Scan hard;
-  hard.points = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
-  hard.labels = {kFreeClass, 1, 3};
-  ScanReport report;
-  prepareScan(hard, options, report);
-  EXPECT_EQ(report.rejected[static_cast<std::size_t>(RejectReason::ClassOutOfRange)], 2u);
-  EXPECT_EQ(report.training_points, 1u);
-  Scan soft;
-  soft.points = hard.points;
-  soft.scores = {1, 0, 0, 0.25F, 0.75F, 0, 0, 0.5F, 0.5F};
-  report = {};
-  prepareScan(soft, options, report);
-  EXPECT_EQ(report.rejected[static_cast<std::size_t>(RejectReason::InvalidScores)], 2u);
-}
-
 }  // namespace
 }  // namespace csom

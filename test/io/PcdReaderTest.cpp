@@ -112,8 +112,8 @@ TEST_F(PcdReaderTest, A7_PaddingOfCountZeroTakesNoBytes) {
   header.size = "4 4 4 1 2 1 4 1";
   header.type = "F F F U U U U U";
   header.count = "1 1 1 4 1 0 0 3";
-  const std::string point = bytesOf(1.F) + bytesOf(2.F) + bytesOf(3.F) + "pads" +
-                            bytesOf(std::uint16_t{9}) + "pad";
+  const std::string point =
+      bytesOf(1.F) + bytesOf(2.F) + bytesOf(3.F) + "pads" + bytesOf(std::uint16_t{9}) + "pad";
   const PcdCloud cloud = read(header.text() + point);
   EXPECT_EQ(cloud.points[0], Eigen::Vector3d(1, 2, 3));
   EXPECT_THAT(cloud.labels, ElementsAre(9));
@@ -198,6 +198,8 @@ TEST_F(PcdReaderTest, A7_DamagedCompressedDataIsRefused) {
   EXPECT_THAT(errorOf(good.substr(0, good.size() - 1)), HasSubstr("the file is truncated"));
   EXPECT_THAT(errorOf(compressed(std::string(31, 'v'))), HasSubstr("cannot be 2 points of 16"));
   EXPECT_THAT(errorOf(bytesOf(std::uint32_t{0}) + bytesOf(std::uint32_t{32})),
+              HasSubstr("its compressed data is damaged"));
+  EXPECT_THAT(errorOf(bytesOf(std::uint32_t{0}) + bytesOf(std::uint32_t{64})),
               HasSubstr("cannot be 2 points"));
   std::string damaged = good;
   damaged[8] = static_cast<char>(0xff);

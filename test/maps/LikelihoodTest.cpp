@@ -184,7 +184,7 @@ TEST(Likelihood, seesThatAnObservationHasChanged) {
   const auto observation = roomCloud();
   const double before = map.computeObservationLikelihood(*observation, CPose3D());
   auto& cloud = dynamic_cast<mrpt::maps::CPointsMapXYZI&>(*observation->pointcloud);
-  for (std::size_t i = 0; i < cloud.size(); ++i) cloud.setPointFast(i, 0, 0, 0);
+  for (std::size_t i = 0; i < cloud.size(); ++i) cloud.setPointFast(i, 0.5f, 0.5f, 0);
   EXPECT_LT(map.computeObservationLikelihood(*observation, CPose3D()), before - 1);
 }
 

@@ -226,7 +226,8 @@ TEST_F(MapDefinition, pointsOutsideOfViewGiveTheLabelSetAClassForThem) {
   EXPECT_EQ(definition.options.unlabelled_class_id, 2);
   EXPECT_FALSE(load(camera + section("labelOpts") + "outside_view = drop\n")
                    .labels.classByName("unlabelled"));
-  EXPECT_FALSE(load("").labels.classByName("unlabelled")) << "no camera, nothing outside of its view";
+  EXPECT_FALSE(load("").labels.classByName("unlabelled"))
+      << "no camera, nothing outside of its view";
 }
 
 TEST_F(MapDefinition, A1_theClassOfUnlabelledPointsIsAddedIfItIsNamedSo) {

@@ -89,7 +89,7 @@ TEST(MetricMap, whatHasNoUsableLabelIsRejectedByNameIfItIsNotKept) {
 
 TEST(MetricMap, B9_aScanThatCannotBeInsertedIsRefusedAndNotThrown) {
   Options options;
-  options.resolution = 1;
+  options.resolution = 0.064;
   options.free_space = FreeSpace::Sampled;
   options.free_resolution = 0.001;  // 2^27 free samples are soon reached
   CSemanticContinuousMap map(options, testing::sampleLabels());
@@ -233,7 +233,7 @@ TEST(MetricMap, documentRoundTrip) {
   EXPECT_EQ(other.document().meta, faulty.document().meta);
   insert_faults(other);
   const auto meta = other.document().meta;
-  EXPECT_EQ(meta.at("points_with_unknown_label_dropped"), "2");
+  EXPECT_EQ(meta.at("points_with_unknown_label_kept_unlabelled"), "2");
   EXPECT_EQ(meta.at("observations_not_taken"), "CObservationOdometry 2");
   EXPECT_EQ(meta.at("observations_damaged"), "CObservationPointCloud 2");
 

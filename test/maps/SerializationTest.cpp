@@ -181,6 +181,23 @@ Bytes asWrittenBy(std::uint8_t version, const Bytes& today) {
   }
   copyOptions(version < 1 ? later : out);
   copyBytes(sizeof(std::uint64_t), version < 1 ? later : out);  // number of label sources: none
+  copyOptions(out);
+  out.text(in.text());  // labels
+  copyOptions(out);     // meta
+  const auto copyCounts = [&] {
+    const auto count = in.number<std::uint64_t>();
+    out.number(count);
+    for (std::uint64_t left = count; left > 0; --left) {
+      out.text(in.text());
+      copyBytes(sizeof(std::uint64_t), out);
+    }
+  };
+  copyBytes(2 * sizeof(std::uint64_t), out);
+  copyCounts();
+  copyCounts();
+  copyOptions(out);                           // reasons
+  copyBytes(6 * sizeof(std::uint64_t), out);  // points by their labels
+  copyBytes(2 * sizeof(std::uint64_t), version < 4 ? later : out);
   copyBytes(in.left() - 1, out);
   copyBytes(1, version < 1 ? later : out);  // is there an adapter? no
   parts.front.back() = version;
@@ -192,8 +209,8 @@ TEST(Serialization, readsWhatEarlierVersionsWrote) {
   CSemanticContinuousMap map = fullMap();
   map.labelOptions.max_time_offset = 0.0625;
   const Bytes today = serialised(map);
-  ASSERT_EQ(asWrittenBy(3, today), today) << "the test does not follow the format any more";
-  for (std::uint8_t version = 0; version < 3; ++version) {
+  ASSERT_EQ(asWrittenBy(4, today), today) << "the test does not follow the format any more";
+  for (std::uint8_t version = 0; version < 4; ++version) {
     SCOPED_TRACE(static_cast<int>(version));
     CSemanticContinuousMap copy;
     readInto(copy, asWrittenBy(version, today));
@@ -201,7 +218,8 @@ TEST(Serialization, readsWhatEarlierVersionsWrote) {
     EXPECT_EQ(copy.scans().size(), map.scans().size());
     EXPECT_FALSE(copy.renderingOptions.occupied_voxels);
     EXPECT_TRUE(copy.renderingOptions.free_voxels);
-    EXPECT_EQ(copy.renderingOptions.color_by, VoxelColor::Class);
+    EXPECT_EQ(copy.renderingOptions.color_by,
+              version < 3 ? VoxelColor::Class : map.renderingOptions.color_by);
     EXPECT_EQ(copy.likelihoodOptions.decimation, 3);
     EXPECT_EQ(copy.likelihoodOptions.max_distance, 0.75);
     EXPECT_EQ(copy.likelihoodOptions.sigma, 0.125);

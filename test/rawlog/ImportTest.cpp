@@ -190,11 +190,11 @@ TEST(ImportSemanticKitti, DoesNotMixTimesOfTheFileWithItsOwn) {
   const TempFolder folder;
   writeSequence(folder);
   writeBytes(folder / "times.txt", "1000.0\n");
-  EXPECT_THAT(
-      fileErrorOf([&] { importedTimes(folder); }),
-      testing::AllOf(HasSubstr("times.txt: has 1 times, so none for "), HasSubstr("000001.bin")));
+  EXPECT_THAT(fileErrorOf([&] { importedTimes(folder); }),
+              testing::AllOf(HasSubstr("times.txt: has 1 lines, so no time for "),
+                             HasSubstr("000001.bin")));
   writeBytes(folder / "times.txt", "");
-  EXPECT_THAT(fileErrorOf([&] { importedTimes(folder); }), HasSubstr("times.txt: has 0 times"));
+  EXPECT_THAT(fileErrorOf([&] { importedTimes(folder); }), HasSubstr("times.txt: has 0 lines"));
   fs::remove(folder / "times.txt");
   fs::create_directory(folder / "times.txt");
   EXPECT_THAT(fileErrorOf([&] { importedTimes(folder); }), HasSubstr("times.txt: is a folder"));
@@ -376,7 +376,9 @@ TEST(ImportKittiRaw, WritesScansAndExternalisedImages) {
   const auto summary = importKittiRaw(request, folder / "r.rawlog");
   EXPECT_EQ(summary.scans, 2u);
   EXPECT_EQ(summary.images, 1u);
-  EXPECT_THAT(summary.warnings, testing::ElementsAre(HasSubstr("0000000001.png: missing")));
+  EXPECT_THAT(summary.warnings,
+              testing::ElementsAre(testing::AllOf(HasSubstr("image_02: 1 scans have no image"),
+                                                  HasSubstr("frame 1"))));
 
   const auto all = observationsOf(folder / "r.rawlog");
   const auto images = only<mrpt::obs::CObservationImage>(all);
@@ -440,12 +442,16 @@ TEST(ImportKittiRaw, LeavesNoImagesWithoutTheLog) {
 TEST(ImportKittiRaw, DoesNotTakeOverImagesOfAKilledRun) {
   const TempFolder folder;
   writeDrive(folder);
-  fs::create_directories(folder / "r_Images.tmp");
-  writeBytes(folder / "r_Images.tmp/stale.png", "stale");
+  const std::string killed = folder / "r_Images.tmp999999999";  // no process has this number
+  const std::string running = folder / "r_Images.tmp1";
+  fs::create_directories(killed);
+  fs::create_directories(running);
+  writeBytes(killed + "/stale.png", "stale");
   KittiRawImport request;
   request.folder = folder.path();
   importKittiRaw(request, folder / "r.rawlog");
-  EXPECT_FALSE(fs::exists(folder / "r_Images.tmp"));
+  EXPECT_FALSE(fs::exists(killed));
+  EXPECT_TRUE(fs::exists(running)) << "another import is at work";
   EXPECT_TRUE(fs::exists(folder / "r_Images/image_02_0000000000.png"));
   EXPECT_FALSE(fs::exists(folder / "r_Images/stale.png"));
 }

@@ -114,10 +114,12 @@ inline std::string writeConfig(const TempFolder& folder, const std::string& keys
              "  - {id: 1, name: wall, color: [200, 0, 0]}\n"
              "  - {id: 2, name: floor, color: [0, 0, 200]}\n");
   const std::string file = folder / "map.ini";
+  const bool given = keys.find("point_labels") != std::string::npos;
+  const std::string own_labels = given ? "" : "point_labels = intensity\n";
   const std::string section = "[MappingApplication_semanticContinuousMap_00_";
   writeBytes(file, "[MappingApplication]\nsemanticContinuousMap_count = 1\n" + section +
                        "creationOpts]\nlabel_set = labels.yaml\nresolution = 0.2\n" + section +
-                       "insertOpts]\npoint_labels = intensity\n" + keys + "\n");
+                       "insertOpts]\n" + own_labels + keys + "\n");
   return file;
 }
 

@@ -126,11 +126,14 @@ TEST(MappingRun, EveryDamagedObservationHasItsOwnReason) {
 TEST(MappingRun, SwitchedOffInsertionIsSaid) {
   const TempFolder folder;
   const auto log = writeLog(folder / "a.rawlog", driveEntries(2));
-  const std::string off =
-      "[MappingApplication_semanticContinuousMap_00_creationOpts]\n"
-      "enableObservationInsertion = false";
+  MappingRequest request;
+  request.logs = {log};
+  request.config_file = writeConfig(folder);
+  std::string config = readBytes(request.config_file);
+  config.insert(config.find("label_set"), "enableObservationInsertion = false\n");
+  writeBytes(request.config_file, config);
   try {
-    mapped(folder, {log}, off);
+    mapLogs(request);
     ADD_FAILURE() << "no error";
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("2 CObservationPointCloud: the map's "
@@ -147,11 +150,12 @@ TEST(MappingRun, CountsPointsThatItCannotUse) {
   points.setPointIntensity(2, 77.0f);
   points.setPointIntensity(3, 1.5f);
   const auto result = mapped(folder, {writeLog(folder / "a.rawlog", {robotPose(100, {}), cloud})});
-  EXPECT_THAT(result.warnings,
-              testing::ElementsAre(
-                  "rejected 2 points: non-finite",
-                  "left out 2 points whose label is not in the label set 'walls'; if their "
-                  "intensities are no labels, set point_labels = none"));
+  EXPECT_THAT(
+      result.warnings,
+      testing::ElementsAre(
+          "rejected 2 points: non-finite",
+          "left out 2 points whose label is not in the label set 'walls', or means free; if "
+          "their intensities are no labels, set point_labels = none"));
 }
 
 TEST(MappingRun, MapsWhatACutOffLogHolds) {
@@ -221,15 +225,15 @@ TEST(MappingRun, ReportsProgressOfAllLogs) {
   const TempFolder folder;
   const auto log = writeLog(folder / "a.rawlog", driveEntries(3));
   MappingRequest request;
-  request.logs = {log, log};
+  request.logs = {log, writeLog(folder / "b.rawlog", driveEntries(4))};
   request.config_file = writeConfig(folder);
   std::vector<std::size_t> done;
   mapLogs(request, [&](const MappingProgress& now) {
     done.push_back(now.entries_done);
-    EXPECT_EQ(now.entries, 12u);
+    EXPECT_EQ(now.entries, 14u);
   });
-  ASSERT_EQ(done.size(), 12u);
-  EXPECT_EQ(done.back(), 12u);
+  ASSERT_EQ(done.size(), 14u);
+  EXPECT_EQ(done.back(), 14u);
 }
 
 TEST(MappingRun, ProgressTellsWhatIsInTheMapAndWhatWasLeftOut) {

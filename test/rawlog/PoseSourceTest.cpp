@@ -62,6 +62,35 @@ TEST(PoseTrack, InterpolatesAndNeverExtrapolates) {
   EXPECT_NEAR(std::cos(half->yaw()), -1, 1e-9);
 }
 
+TEST(PoseTrack, A5_DoesNotInterpolateAcrossImplausibleGaps) {
+  PoseTrack track;
+  for (int i = 0; i < 10; ++i) track.add(0.2 * i, {1.0 * i, 0, 0, 0, 0, 0});
+  track.add(3.7, {20, 0, 0, 0, 0, 0});  // 1.9 s behind: less than ten times 0.2 s
+  track.add(6.0, {30, 0, 0, 0, 0, 0});  // 2.3 s
+  track.add(100, {30, 0, 0, 0, 0, 0});  // the robot stood
+  EXPECT_TRUE(track.at(5)) << "as long as nobody limits gaps";
+  track.limitGapsBySpacing();
+  EXPECT_TRUE(track.at(2.5));
+  EXPECT_FALSE(track.at(5));
+  EXPECT_TRUE(track.at(6.0)) << "a pose of that very time";
+  EXPECT_TRUE(track.at(50));
+  const auto gap = track.gapAt(5);
+  ASSERT_TRUE(gap);
+  EXPECT_EQ(gap->before, 3.7);
+  EXPECT_EQ(gap->after, 6.0);
+  EXPECT_FALSE(track.gapAt(6.0));
+  EXPECT_FALSE(track.gapAt(-1));
+
+  PoseTrack two;
+  two.add(0, {0, 0, 0, 0, 0, 0});
+  two.add(59, {1, 0, 0, 0, 0, 0});
+  two.limitGapsBySpacing();
+  EXPECT_TRUE(two.at(30)) << "two poses have no other spacing than their own";
+  two.add(7200, {2, 0, 0, 0, 0, 0});
+  two.limitGapsBySpacing();
+  EXPECT_FALSE(two.at(3600)) << "but a minute is the most";
+}
+
 TEST(PoseTrack, RefusesWhatIsNotFinite) {
   PoseTrack track;
   EXPECT_FALSE(track.add(std::numeric_limits<double>::infinity(), CPose3D()));
@@ -149,10 +178,12 @@ TEST(PoseSource, ReadsTumFilesByTimeAndKittiFilesByScan) {
   expectNear(tum.at(0), {1, 2, 3, 0, 0, 0});
   expectNear(tum.at(1), {2, 4, 6, 0, 0, 0});
   EXPECT_FALSE(tum.at(2));
-  const auto kitti = posesOf(log, PoseChoice::parse("kitti:" + (folder / "kitti.txt")));
+  const auto two = writeLog(folder / "b.rawlog", {wallCloud(2), wallCloud(3)});
+  const auto kitti = posesOf(two, PoseChoice::parse("kitti:" + (folder / "kitti.txt")));
   expectNear(kitti.at(0), {7, 8, 9, 0, 0, 0});
   expectNear(kitti.at(1), {1, 2, 3, 0, 0, 0});
-  EXPECT_FALSE(kitti.at(2)) << "more scans than lines";
+  EXPECT_THROW(posesOf(log, PoseChoice::parse("kitti:" + (folder / "kitti.txt"))), ConfigError)
+      << "more scans than lines";
 }
 
 TEST(PoseSource, RefusesBadFilesOfPoses) {

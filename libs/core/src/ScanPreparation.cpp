@@ -55,20 +55,13 @@ void checkSizes(const Scan& scan, int classes) {
   }
 }
 
-/// Points are returns: no share of them may be free, see isClassOfReturn().
 bool validScores(const float* scores, int classes) {
-  if (scores[kFreeClass] != 0) return false;
   double sum = 0;
   for (int k = 0; k < classes; ++k) {
     if (!(scores[k] >= 0)) return false;
     sum += scores[k];
   }
   return std::abs(sum - 1) <= kScoreTolerance;
-}
-
-/// A beam was thrown back where a point is, so a point that claims to be free is wrong.
-bool isClassOfReturn(ClassId id, int classes) {
-  return id != kFreeClass && id < classes;
 }
 
 class Preparation {
@@ -120,8 +113,7 @@ class Preparation {
       return RejectReason::OutsideIndexRange;
     if (range > longest_beam_) return RejectReason::BeamTooLong;
     if (!scan_.isSoft()) {
-      if (!isClassOfReturn(scan_.labels[i], options_.number_of_classes))
-        return RejectReason::ClassOutOfRange;
+      if (scan_.labels[i] >= options_.number_of_classes) return RejectReason::ClassOutOfRange;
     } else if (!validScores(rowOf(scan_.scores, i), options_.number_of_classes)) {
       return RejectReason::InvalidScores;
     }
@@ -137,7 +129,7 @@ class Preparation {
            p.cwiseAbs().maxCoeff() < plain_reach_;
   }
   bool isPlain(std::size_t i) const {
-    return !scan_.isSoft() && isClassOfReturn(scan_.labels[i], options_.number_of_classes) &&
+    return !scan_.isSoft() && scan_.labels[i] < options_.number_of_classes &&
            isFarFromLimits(scan_.points[i]);
   }
 
@@ -345,8 +337,8 @@ class Preparation {
 
 double scanReach(const Options& options) {
   const bool down_sampled = options.ds_resolution > 0;
-  return kReachCells * (down_sampled ? std::min(options.ds_resolution, options.resolution)
-                                     : options.resolution);
+  return kReachCells *
+         (down_sampled ? std::min(options.ds_resolution, options.resolution) : options.resolution);
 }
 
 PreparedScan prepareScan(const Scan& scan, const Options& options, ScanReport& report) {

@@ -97,7 +97,8 @@ std::optional<RayHit> SemanticMap::castRay(const Eigen::Vector3d& origin,
   double range = max_range;
   for (int axis = 0; axis < 3; ++axis) {  // end where indices end
     if (unit[axis] == 0) continue;
-    const double end = grid_.resolution() * (unit[axis] > 0 ? kLastVoxelIndex + 1.0 : kFirstVoxelIndex);
+    const double end =
+        grid_.resolution() * (unit[axis] > 0 ? kLastVoxelIndex + 1.0 : kFirstVoxelIndex);
     range = std::min(range, std::max(0.0, (end - origin[axis]) / unit[axis]));
   }
 

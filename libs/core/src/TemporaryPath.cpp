@@ -28,7 +28,8 @@ Registry& registry() {
   return *instance;
 }
 
-/// A file and what libraries have made beside it under its name: journals, temporary files of theirs.
+/// A file and what libraries have made beside it under its name: journals, temporary files of
+/// theirs.
 std::vector<fs::path> withCompanions(const fs::path& path) {
   std::vector<fs::path> found{path};
   std::error_code error;
@@ -36,7 +37,8 @@ std::vector<fs::path> withCompanions(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const std::string name = at->path().filename().string();
-    const bool is_companion = name.size() > start.size() && name.compare(0, start.size(), start) == 0 &&
+    const bool is_companion = name.size() > start.size() &&
+                              name.compare(0, start.size(), start) == 0 &&
                               (name[start.size()] == '.' || name[start.size()] == '-');
     if (is_companion) found.push_back(at->path());
   }

@@ -155,8 +155,10 @@ void VoxelSelection::requireResampledVoxels() const {
   forEachResampled([&](const VoxelIndex&, const ExportedVoxel&) { any = true; });
   if (any) return;
   throw ConfigError(
-      "the selection is so small that, in the pose of the export, no voxel of the exported grid has "
-      "its centre in it: there is nothing to export; select more, or choose a pose of whole voxels");
+      "the selection is so small that, in the pose of the export, no voxel of the exported grid "
+      "has "
+      "its centre in it: there is nothing to export; select more, or choose a pose of whole "
+      "voxels");
 }
 
 std::optional<VoxelBox> VoxelSelection::resampledBounds() const {

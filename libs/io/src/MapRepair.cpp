@@ -266,7 +266,8 @@ void copyDatabase(const std::string& file, const std::string& copy) {
 }
 
 /// The same where SQLite cannot read the log in its place, as it wants to write a third file beside
-/// it. Throws FileError if the two cannot even be copied, std::runtime_error if the copy is damaged.
+/// it. Throws FileError if the two cannot even be copied, std::runtime_error if the copy is
+/// damaged.
 void copyFiles(const std::string& file, const std::string& copy) {
   for (const char* ending : {"", "-wal"}) {
     std::error_code error;
@@ -360,9 +361,10 @@ MapRepair recoverMap(const std::string& file) {
   MapRepair repair = recoverFrom(source.copy.value_or(file), file);
   if (!source.damage.empty()) {
     repair.lost_chunks = true;
-    repair.losses.push_back("what was committed last may be lost, as the log beside the file (-wal) "
-                            "cannot be read to its end: " +
-                            source.damage);
+    repair.losses.push_back(
+        "what was committed last may be lost, as the log beside the file (-wal) "
+        "cannot be read to its end: " +
+        source.damage);
   }
   return repair;
 }

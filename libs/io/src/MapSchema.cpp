@@ -54,9 +54,8 @@ std::map<std::string, std::string> tablesOf(std::int64_t version) {
 }
 
 std::string createTables() {
-  std::string statements =
-      "PRAGMA application_id = " + std::to_string(kApplicationId) +
-      "; PRAGMA user_version = " + std::to_string(kFormatVersion) + "; ";
+  std::string statements = "PRAGMA application_id = " + std::to_string(kApplicationId) +
+                           "; PRAGMA user_version = " + std::to_string(kFormatVersion) + "; ";
   for (const auto& [name, statement] : tablesOf(kFormatVersion)) statements += statement + "; ";
   return statements;
 }

@@ -23,8 +23,9 @@ std::int64_t readPragma(const Database& database, const std::string& name) {
 void checkTables(const Database& database, std::int64_t version) {
   const std::string& file = database.shownName();
   std::map<std::string, std::string> missing = tablesOf(version);
-  Statement objects(database, "SELECT type, name, tbl_name, rootpage, coalesce(sql, '') FROM "
-                              "sqlite_master");
+  Statement objects(database,
+                    "SELECT type, name, tbl_name, rootpage, coalesce(sql, '') FROM "
+                    "sqlite_master");
   while (objects.step()) {
     const std::string type = objects.text(0);
     const std::string name = objects.text(1);
@@ -35,13 +36,13 @@ void checkTables(const Database& database, std::int64_t version) {
     if (table == missing.end())
       throw FileError(file, "has a " + printable(type) + " " + quoted(name) +
                                 ", which is no part of a map; its tables are not those that csom "
-                                "writes" + kDamaged);
+                                "writes" +
+                                kDamaged);
     if (type != "table" || objects.integer(3) <= 0 || objects.text(4) != table->second)
       throw FileError(file, "its table " + name + " is not made as csom makes it" + kDamaged);
     missing.erase(table);
   }
-  if (!missing.empty())
-    throw FileError(file, "has no table " + missing.begin()->first + kDamaged);
+  if (!missing.empty()) throw FileError(file, "has no table " + missing.begin()->first + kDamaged);
 }
 
 void bindValue(Statement& statement, int parameter, double value) {

@@ -174,8 +174,8 @@ class HeaderReader {
     if (header_.fields.empty()) fail("the header has no FIELDS");
     for (PcdField& field : header_.fields) {
       if (field.type == 'F' && field.size < 4)
-        fail("field " + quoted(field.name) + " is of TYPE F and SIZE " + std::to_string(field.size) +
-             ", must be 4 or 8");
+        fail("field " + quoted(field.name) + " is of TYPE F and SIZE " +
+             std::to_string(field.size) + ", must be 4 or 8");
       field.column = header_.columns;
       field.offset = header_.point_bytes;
       header_.columns += field.count;

@@ -14,9 +14,9 @@ namespace csom::detail {
 
 struct PcdField {
   std::string name;
-  char type = 'F';         ///< 'F', 'U' or 'I'
-  std::size_t size = 4;    ///< bytes of one value
-  std::size_t count = 1;   ///< values a point; 0: the field is named, but holds nothing
+  char type = 'F';        ///< 'F', 'U' or 'I'
+  std::size_t size = 4;   ///< bytes of one value
+  std::size_t count = 1;  ///< values a point; 0: the field is named, but holds nothing
 
   /// Padding, which is left out of compressed data.
   bool isPadding() const { return name == "_"; }

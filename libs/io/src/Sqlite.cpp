@@ -36,8 +36,7 @@ void limitLengths(sqlite3* handle, const std::string& path) {
     const std::uintmax_t bytes = fs::file_size(path + ending, error);
     if (!error) size += bytes;
   }
-  sqlite3_limit(handle, SQLITE_LIMIT_LENGTH,
-                static_cast<int>(std::clamp(size, kAtLeast, kAtMost)));
+  sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, static_cast<int>(std::clamp(size, kAtLeast, kAtMost)));
 }
 
 }  // namespace
@@ -106,9 +105,10 @@ void Database::fail(const std::string& what) const {
                                        (reason != 0 ? std::strerror(reason) : "disk I/O error"));
     }
     case SQLITE_CANTOPEN:
-      throw FileError(shown_name_,
-                      "cannot be opened; if it has a log beside it (-wal) and lies where nothing can "
-                      "be written, copy both to another folder");
+      throw FileError(
+          shown_name_,
+          "cannot be opened; if it has a log beside it (-wal) and lies where nothing can "
+          "be written, copy both to another folder");
     case SQLITE_TOOBIG:
       throw FileError(shown_name_,
                       std::string("has a value that is longer than the file") + kDamaged);

@@ -104,8 +104,7 @@ std::vector<std::optional<Eigen::Isometry3d>> readKittiPoses(const std::string& 
   std::vector<std::optional<Eigen::Isometry3d>> poses;
   std::size_t until_last = 0;
   while (lines.nextLine()) {
-    if (lines.isComment())
-      lines.fail("a comment, but the line of a pose is its frame: remove it");
+    if (lines.isComment()) lines.fail("a comment, but the line of a pose is its frame: remove it");
     poses.emplace_back();
     if (lines.isBlank()) continue;
     const std::array<double, 12> n = lines.numbers();

@@ -55,13 +55,14 @@ void CameraLabelling::loadNetworks() {
 }
 
 void CameraLabelling::takeNetworksOf(const CameraLabelling& other) {
-  const bool same = std::equal(
-      cameras_.begin(), cameras_.end(), other.cameras_.begin(), other.cameras_.end(),
-      [](const Camera& a, const Camera& b) {
-        return a.source.sensor_label == b.source.sensor_label && a.source.kind == b.source.kind &&
-               a.source.network == b.source.network && a.source.model == b.source.model &&
-               a.source.label_image == b.source.label_image;
-      });
+  const bool same = std::equal(cameras_.begin(), cameras_.end(), other.cameras_.begin(),
+                               other.cameras_.end(), [](const Camera& a, const Camera& b) {
+                                 return a.source.sensor_label == b.source.sensor_label &&
+                                        a.source.kind == b.source.kind &&
+                                        a.source.network == b.source.network &&
+                                        a.source.model == b.source.model &&
+                                        a.source.label_image == b.source.label_image;
+                               });
   if (!same) throw std::invalid_argument("the label sources of two maps are not the same");
   for (std::size_t i = 0; i < cameras_.size(); ++i)
     cameras_[i].labeller = other.cameras_[i].labeller;

@@ -16,8 +16,8 @@
 namespace csom {
 namespace {
 
-/// 1: labels from cameras. 2: options of the likelihood by name. 3: those of views by name. 4: beams
-/// without a return, points of unknown labels that were kept.
+/// 1: labels from cameras. 2: options of the likelihood by name. 3: those of views by name. 4:
+/// beams without a return, points of unknown labels that were kept.
 constexpr std::uint8_t kVersion = 4;
 
 using Texts = std::map<std::string, std::string>;

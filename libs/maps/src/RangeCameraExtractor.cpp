@@ -156,13 +156,8 @@ class RangeCameraExtractor : public PointExtractor {
     const std::vector<PointLabel> labels =
         scan.pixelLabels ? labelsOf(scan, rules) : std::vector<PointLabel>(count);
     out.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Eigen::Vector3f point(scan.points3D_x[i], scan.points3D_y[i], scan.points3D_z[i]);
-      if (!scan.hasRangeImage && point.norm() > scan.maxRange)
-        ++out.no_returns;
-      else
-        out.add(point, labels[i]);
-    }
+    for (std::size_t i = 0; i < count; ++i)
+      out.add({scan.points3D_x[i], scan.points3D_y[i], scan.points3D_z[i]}, labels[i]);
     return out;
   }
 

@@ -59,7 +59,8 @@ Room readRoom(const std::string& folder, const LabelSet& labels) {
   std::size_t surplus = 0;
   for (const std::string& file : detail::filesIn(folder, ".pcd")) {
     const PcdCloud cloud = readPcd(file, PcdRowPolicy::IgnoreExtra);
-    if (cloud.label_field.empty()) throw FileError(file, "has no field 'label', so it cannot be scored");
+    if (cloud.label_field.empty())
+      throw FileError(file, "has no field 'label', so it cannot be scored");
     rows += cloud.skipped_rows;
     surplus += cloud.irregular_rows - cloud.skipped_rows;
     LabelledCloud& kept = room.clouds.emplace_back();

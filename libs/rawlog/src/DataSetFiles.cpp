@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <cctype>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
@@ -19,13 +19,27 @@ namespace csom::detail {
 
 namespace fs = std::filesystem;
 
+std::string lowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+void requireReadable(const fs::directory_entry& entry) {
+  std::error_code error;
+  if (!entry.exists(error))
+    throw FileError(entry.path().string(), "is a link to a file that is not there");
+  if (!entry.is_regular_file(error)) throw FileError(entry.path().string(), "is no regular file");
+}
+
 std::vector<std::string> filesIn(const std::string& folder, const std::string& extension) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) throw FileError(folder, "no such folder");
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file(error) && entry.path().extension() == extension)
-      files.push_back(entry.path().string());
+    if (lowerCase(entry.path().extension().string()) != extension) continue;
+    requireReadable(entry);
+    files.push_back(entry.path().string());
   }
   if (files.empty()) throw FileError(folder, "holds no *" + extension + " file");
   std::sort(files.begin(), files.end(), naturalLess);
@@ -132,8 +146,9 @@ double FrameTimes::of(std::size_t number, const std::string& scan) const {
                     "has " + std::to_string(times_->size()) + " lines, so no time for " + scan);
   const std::optional<double>& time = (*times_)[number];
   if (!time)
-    throw FileError(file_, "line " + std::to_string(number + 1) + " is blank, so there is no time for " +
-                               scan + "; leave that one out with --scans");
+    throw FileError(file_, "line " + std::to_string(number + 1) +
+                               " is blank, so there is no time for " + scan +
+                               "; leave that one out with --scans");
   return *time;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which frame of its data set an observation is: a log may hold every second frame from the tenth on,
-// while a file of poses has a line for each.
+// Which frame of its data set an observation is: a log may hold every second frame from the tenth
+// on, while a file of poses has a line for each.
 #pragma once
 
 #include <mrpt/obs/CObservation.h>
@@ -15,8 +15,8 @@
 
 namespace csom::detail {
 
-/// Kept in a log as a comment at its beginning, by sensor label and time stamp, so that it stays right
-/// when observations are cut out of the log.
+/// Kept in a log as a comment at its beginning, by sensor label and time stamp, so that it stays
+/// right when observations are cut out of the log.
 class FrameNumbers {
  public:
   void add(const std::string& sensor_label, double time, std::size_t frame);

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <filesystem>
@@ -52,18 +51,16 @@ fs::path calibrationFolder(const KittiRawImport& request) {
 
 /// What cv::imread() reads and data sets are published as.
 bool isImageFile(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = detail::lowerCase(file.extension().string());
   return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
 }
 
 std::map<std::size_t, std::string> imagesIn(const fs::path& folder) {
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    std::error_code error;
-    if (entry.is_regular_file(error) && isImageFile(entry.path()))
-      files.push_back(entry.path().string());
+    if (!isImageFile(entry.path())) continue;
+    detail::requireReadable(entry);
+    files.push_back(entry.path().string());
   }
   std::sort(files.begin(), files.end(), naturalLess);
   const std::vector<std::size_t> frames = detail::numbersOfFiles(files);
@@ -197,8 +194,8 @@ class Drive {
         if (image == camera.images.end()) continue;
         // An image is taken when the scanner looks ahead; without a time of its own it is taken for
         // one of the scan's moment.
-        const double time = camera.times.areGiven() ? camera.times.of(frame, image->second)
-                                                    : shots.back().time;
+        const double time =
+            camera.times.areGiven() ? camera.times.of(frame, image->second) : shots.back().time;
         shots.push_back({time, frame, &camera, image->second});
       }
     }
@@ -233,14 +230,14 @@ class Drive {
     std::vector<std::size_t> without_image;
     for (const std::size_t position : positions)
       if (camera.images.count(frames_[position]) == 0) without_image.push_back(frames_[position]);
-    tell(without_image, "scans have no image in " + (camera.folder / "data").string() +
-                            " (*.png, *.jpg)");
+    tell(without_image,
+         "scans have no image in " + (camera.folder / "data").string() + " (*.png, *.jpg)");
     // With a selection: between the first and the last scan that were chosen.
     const bool all = positions.size() == files_.size();
     std::vector<std::size_t> without_scan;
     for (const auto& [frame, file] : camera.images) {
-      const bool asked_for = all || (frame >= frames_[positions.front()] &&
-                                     frame <= frames_[positions.back()]);
+      const bool asked_for =
+          all || (frame >= frames_[positions.front()] && frame <= frames_[positions.back()]);
       const bool scanned = std::binary_search(frames_.begin(), frames_.end(), frame);
       if (asked_for && !scanned) without_scan.push_back(frame);
     }

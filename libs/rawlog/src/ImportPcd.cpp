@@ -71,8 +71,8 @@ class PcdFiles {
     const std::string& field = request_.label_field;
     const PcdCloud raw = readPcd(file, request_.row_policy, field.empty() ? kDefaultField : field);
     if (!field.empty() && raw.label_field.empty())
-      throw FileError(file, "has no field " + detail::quoted(field) + " with one value a point; there are " +
-                                detail::joined(raw.fields));
+      throw FileError(file, "has no field " + detail::quoted(field) +
+                                " with one value a point; there are " + detail::joined(raw.fields));
     requireSameLabels(raw, file);
     requireNearViewpoint(raw, file);
     report(raw, file);
@@ -93,8 +93,8 @@ class PcdFiles {
 
   /// One line for each kind of fault, however many files have it.
   void addWarnings() const {
-    summary_.labels = label_field_.empty() ? whyNoLabels(fields_)
-                                           : "the field " + detail::quoted(label_field_);
+    summary_.labels =
+        label_field_.empty() ? whyNoLabels(fields_) : "the field " + detail::quoted(label_field_);
     if (no_returns_ > 0)
       summary_.warnings.push_back(std::to_string(no_returns_) +
                                   " points lie at exactly 0, 0, 0: they are taken for beams "

@@ -62,8 +62,7 @@ class Sequence {
     const std::string& file = files_[position];
     const KittiScan scan = readKittiScan(file);
     const Eigen::Isometry3d& camera = *camera_poses_[numbers_[position]];
-    const auto velodyne =
-        detail::toMrpt(world_from_camera_world_ * camera * camera_from_velodyne_);
+    const auto velodyne = detail::toMrpt(world_from_camera_world_ * camera * camera_from_velodyne_);
     log.write(detail::poseObservation(velodyne, time(position)));
     log.write(detail::cloudObservation(scan.points, carried(file, scan), time(position), kLabel));
     return scan.points.size();
@@ -99,9 +98,9 @@ std::vector<std::size_t> withPoses(const Sequence& sequence, const std::vector<s
       first = sequence.file(position);
   }
   if (!first.empty())
-    summary.warnings.push_back(
-        "left out " + std::to_string(chosen.size() - with_pose.size()) +
-        " scans whose line in poses.txt is blank; the first one is " + first);
+    summary.warnings.push_back("left out " + std::to_string(chosen.size() - with_pose.size()) +
+                               " scans whose line in poses.txt is blank; the first one is " +
+                               first);
   return with_pose;
 }
 

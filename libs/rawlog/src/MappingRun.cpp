@@ -375,16 +375,17 @@ std::string MappingRun::rangeHint() const {
   std::string farthest;
   if (state_.farthest.cwiseAbs().maxCoeff() > reach) {
     char place[128];
-    std::snprintf(place, sizeof place, "; the robot was at (%.1f, %.1f, %.1f)",
-                  state_.farthest.x(), state_.farthest.y(), state_.farthest.z());
+    std::snprintf(place, sizeof place, "; the robot was at (%.1f, %.1f, %.1f)", state_.farthest.x(),
+                  state_.farthest.y(), state_.farthest.z());
     farthest = place;
   }
   char text[320];
-  std::snprintf(text, sizeof text,
-                "; with voxels of %g m a map reaches %.0f km from its origin along each axis, and a "
-                "scan %.0f km from its sensor%s. Subtract one offset from all poses (for UTM, the "
-                "position of the first one), or take larger voxels",
-                options.resolution, reach / 1000, scanReach(options) / 1000, farthest.c_str());
+  std::snprintf(
+      text, sizeof text,
+      "; with voxels of %g m a map reaches %.0f km from its origin along each axis, and a "
+      "scan %.0f km from its sensor%s. Subtract one offset from all poses (for UTM, the "
+      "position of the first one), or take larger voxels",
+      options.resolution, reach / 1000, scanReach(options) / 1000, farthest.c_str());
   return text;
 }
 
@@ -405,7 +406,8 @@ void MappingRun::warnAboutPoints() {
   const auto warnAboutUnknown = [&](const char* what, std::size_t count, const char* rest) {
     if (count == 0) return;
     warn(what + counted(count, "points whose label is not in the label set ") + set +
-         ", or means free" + rest + "; if their intensities are no labels, set point_labels = none");
+         ", or means free" + rest +
+         "; if their intensities are no labels, set point_labels = none");
   };
   warnAboutUnknown("left out ", labels.unknown, "");
   warnAboutUnknown("kept ", labels.kept_unknown, ", as unlabelled");
@@ -422,7 +424,8 @@ void MappingRun::warnAboutViews(const CameraStatistics& cameras) {
   const std::size_t outside = cameras.points[static_cast<std::size_t>(PointFate::OutsideView)];
   std::size_t all = 0;
   for (const std::size_t count : cameras.points) all += count;
-  if (cameras.scans_labelled == 0 || static_cast<double>(outside) < kNearlyAll * static_cast<double>(all))
+  if (cameras.scans_labelled == 0 ||
+      static_cast<double>(outside) < kNearlyAll * static_cast<double>(all))
     return;
   std::string text = std::to_string(outside) + " of " + counted(all, "points lie") +
                      " outside of the view of all cameras";
@@ -434,8 +437,9 @@ void MappingRun::warnAboutViews(const CameraStatistics& cameras) {
                   source.looks_along[1], source.looks_along[2]);
     text += axis;
   }
-  warn(text + " (x ahead, y left, z up). The pose of a camera has z along its view, x to the right "
-              "and y down; one with the axes of the robot lacks a turn by yaw -90, roll -90 degrees");
+  warn(text +
+       " (x ahead, y left, z up). The pose of a camera has z along its view, x to the right "
+       "and y down; one with the axes of the robot lacks a turn by yaw -90, roll -90 degrees");
 }
 
 void MappingRun::warnAboutCameras() {

@@ -158,8 +158,7 @@ void write(const MappingRequest& request, MapStore::State& out) {
   out["request.keep_key_frames"] = toString(request.keep_key_frames);
 }
 
-void writeInputs(const MappingRequest& request, const LabelOptions& labels,
-                 MapStore::State& out) {
+void writeInputs(const MappingRequest& request, const LabelOptions& labels, MapStore::State& out) {
   std::size_t number = 0;
   const auto add = [&](const char* kind, const std::string& file) {
     const std::string key = kInputs + std::to_string(++number);

@@ -38,8 +38,8 @@ void write(const MappingRequest& request, MapStore::State& out);
 /// `input.N.kind` of the logs, whose scans are in the map.
 constexpr char kLogInput[] = "log";
 
-/// Files that a run reads, those of its networks included, with their sizes and hashes: `input.N.file`
-/// … Throws FileError.
+/// Files that a run reads, those of its networks included, with their sizes and hashes:
+/// `input.N.file` … Throws FileError.
 void writeInputs(const MappingRequest& request, const LabelOptions& labels, MapStore::State& out);
 /// Throws FileError if one of them is not as it was.
 void requireSameInputs(const MapStore::State& in, const MapStore::State& now,

@@ -87,8 +87,7 @@ std::string unitHint(const PoseGap& poses, const PoseGap& observed) {
     const bool fits = poses.before / unit.a_second <= observed.after &&
                       poses.after / unit.a_second >= observed.before;
     if (fits && poses.before > observed.after && observed.after > 0)
-      return std::string("; the poses seem to be in ") + unit.name +
-             ", they must be in seconds";
+      return std::string("; the poses seem to be in ") + unit.name + ", they must be in seconds";
   }
   return "";
 }
@@ -309,7 +308,8 @@ std::vector<std::string> PoseSource::doubts() const {
                      "in time (the longest gap: " +
                      span(refused_.longest) + " s)");
   const double spacing = spacingOfObservations();
-  if (spacing > 0 && interpolated_.longest.length() > std::max(kAlwaysPlausible, kWideGap * spacing))
+  if (spacing > 0 &&
+      interpolated_.longest.length() > std::max(kAlwaysPlausible, kWideGap * spacing))
     doubts.push_back("poses are interpolated across gaps of up to " +
                      seconds(interpolated_.longest.length()) + " s (" +
                      span(interpolated_.longest) + " s), while observations are " +

@@ -194,7 +194,8 @@ void writeRejects(std::ostream& page, const RunRecord& record) {
       record.camera_labels ? record.camera_labels->points : CameraPointCounts{};
   list(cameras.unseenAndDropped(), "were hidden from the camera, or at a label border");
   list(cameras.low_confidence, "had a class that is less sure than <code>min_confidence</code>");
-  list(record.label_rejects.ignored + cameras.ignoredAndDropped(), "had a label that the label set ignores");
+  list(record.label_rejects.ignored + cameras.ignoredAndDropped(),
+       "had a label that the label set ignores");
   list(record.label_rejects.unknown + cameras.unknownAndDropped(),
        "had a label that the label set does not know, or that means free");
   list(record.label_rejects.missing, "had no label");
@@ -206,13 +207,13 @@ void writeKept(std::ostream& page, const RunRecord& record) {
   const std::size_t outside =
       record.camera_labels ? record.camera_labels->points.outsideAndDropped() : 0;
   if (outside > 0)
-    page << "<p>" << formatCount(outside, "point")
-         << " outside of the view of all cameras " << (outside == 1 ? "was" : "were")
+    page << "<p>" << formatCount(outside, "point") << " outside of the view of all cameras "
+         << (outside == 1 ? "was" : "were")
          << " left out, as <code>outside_view = drop</code> has it: what lies there is missing in "
             "the map.</p>\n";
   if (record.kept_unlabelled > 0)
-    page << "<p>" << formatCount(record.kept_unlabelled, "point")
-         << " without a usable label of " << (record.kept_unlabelled == 1 ? "its" : "their")
+    page << "<p>" << formatCount(record.kept_unlabelled, "point") << " without a usable label of "
+         << (record.kept_unlabelled == 1 ? "its" : "their")
          << " own went into the map as the class of unlabelled points.</p>\n";
   if (record.no_returns > 0)
     page << "<p>" << formatCount(record.no_returns, "beam")

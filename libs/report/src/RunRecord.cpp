@@ -75,8 +75,10 @@ Json scanJson(const RunScan& scan) {
 }
 
 void addCameraRejects(Json& rejects, const CameraPointCounts& points) {
-  rejects["unknown-label"] = rejects["unknown-label"].get<std::size_t>() + points.unknownAndDropped();
-  rejects["ignored-label"] = rejects["ignored-label"].get<std::size_t>() + points.ignoredAndDropped();
+  rejects["unknown-label"] =
+      rejects["unknown-label"].get<std::size_t>() + points.unknownAndDropped();
+  rejects["ignored-label"] =
+      rejects["ignored-label"].get<std::size_t>() + points.ignoredAndDropped();
   rejects["not-seen-by-camera"] = points.unseenAndDropped();
   rejects["low-confidence"] = points.low_confidence;
 }

@@ -130,10 +130,10 @@ void readRejects(const JsonFields& run, RunRecord& record) {
   record.no_returns = totals.count("no_returns");
   record.label_rejects.missing = rejects.count("no-label");
   record.label_rejects.ambiguous = rejects.count("several-labels");
-  record.label_rejects.unknown =
-      difference(run, "rejects.unknown-label", rejects.count("unknown-label"), cameras.unknownAndDropped());
-  record.label_rejects.ignored =
-      difference(run, "rejects.ignored-label", rejects.count("ignored-label"), cameras.ignoredAndDropped());
+  record.label_rejects.unknown = difference(
+      run, "rejects.unknown-label", rejects.count("unknown-label"), cameras.unknownAndDropped());
+  record.label_rejects.ignored = difference(
+      run, "rejects.ignored-label", rejects.count("ignored-label"), cameras.ignoredAndDropped());
 
   ScanReport of_scans;
   for (const RunScan& scan : record.scans) of_scans += scan.record.report;

@@ -68,8 +68,8 @@ class Grid {
     const double limit = resolution_ * kMaxVoxelIndex;
     return point.cwiseAbs().maxCoeff() <= limit && point.allFinite();
   }
-  /// True if there is a voxel at a point, although no point of a scan may lie there; false for NaN and
-  /// infinities.
+  /// True if there is a voxel at a point, although no point of a scan may lie there; false for NaN
+  /// and infinities.
   bool isAddressable(const Eigen::Vector3d& point) const {
     for (const double coordinate : point) {
       const double voxel = std::floor(coordinate / resolution_);

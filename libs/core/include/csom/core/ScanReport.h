@@ -13,8 +13,8 @@ enum class RejectReason {
   NonFinite,          ///< NaN or infinite coordinates
   TooNear,            ///< nearer than min_range
   TooFar,             ///< farther than max_range
-  ClassOutOfRange,    ///< class id 0 (free, which no return is) or ≥ number_of_classes
-  InvalidScores,      ///< soft labels negative, non-finite, of free, or not summing to 1 ± 1e-3
+  ClassOutOfRange,    ///< class id ≥ number_of_classes
+  InvalidScores,      ///< soft labels negative, non-finite or not summing to 1 ± 1e-3
   OutsideIndexRange,  ///< beyond what voxel indices can address
   BeamTooLong,        ///< free space along it would take more than 8192 steps
 };

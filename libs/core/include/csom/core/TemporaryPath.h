@@ -6,10 +6,10 @@
 
 namespace csom {
 
-/// Names a file or folder that is about to be made and is worth nothing unless it is finished. As long
-/// as this lives, removeTemporaryPaths() removes it: to be constructed before the file is made, and
-/// destroyed when the file has its final name or is gone. Does not remove anything itself.
-/// Thread-safe.
+/// Names a file or folder that is about to be made and is worth nothing unless it is finished. As
+/// long as this lives, removeTemporaryPaths() removes it: to be constructed before the file is
+/// made, and destroyed when the file has its final name or is gone. Does not remove anything
+/// itself. Thread-safe.
 class TemporaryPath {
  public:
   enum class Kind {
@@ -25,9 +25,9 @@ class TemporaryPath {
   std::string path_;
 };
 
-/// For a process that is about to end by a signal: removes all that is named by a TemporaryPath. From
-/// then on, constructing and destroying one blocks, so that nothing new appears while the process
-/// ends. Not to be called in a signal handler, but by a thread of its own. Does not throw.
+/// For a process that is about to end by a signal: removes all that is named by a TemporaryPath.
+/// From then on, constructing and destroying one blocks, so that nothing new appears while the
+/// process ends. Not to be called in a signal handler, but by a thread of its own. Does not throw.
 void removeTemporaryPaths() noexcept;
 
 }  // namespace csom

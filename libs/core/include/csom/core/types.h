@@ -53,8 +53,7 @@ struct VoxelBox {
 /// (kilometres, UTM coordinates) a float still holds them to a fraction of a millimetre.
 ///
 /// Labels are either hard (`labels`: one class a point, `scores` empty) or soft (`scores`: a
-/// row-major matrix points × classes, rows non-negative and summing to 1, `labels` empty). Points are
-/// returns, so none has the class free, nor a share of it.
+/// row-major matrix points × classes, rows non-negative and summing to 1, `labels` empty).
 struct Scan {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< sensor position in the map frame [m]
   std::vector<Eigen::Vector3f> points;               ///< end points relative to origin [m]

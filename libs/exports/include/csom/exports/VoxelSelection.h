@@ -14,8 +14,8 @@
 
 namespace csom {
 
-/// The voxels whose centres, as Grid::center() computes them, lie in a box of the map frame or on its
-/// faces; nothing if there are none.
+/// The voxels whose centres, as Grid::center() computes them, lie in a box of the map frame or on
+/// its faces; nothing if there are none.
 std::optional<VoxelBox> voxelsWithCenterIn(const Grid& grid, const Eigen::AlignedBox3d& box);
 
 /// All conditions must hold.
@@ -80,8 +80,8 @@ class VoxelSelection {
   std::size_t count() const;
   /// Throws ConfigError if the selection is empty.
   void requireVoxels() const;
-  /// Throws ConfigError if forEachResampled() visits no voxel: the selection is empty, or so small that
-  /// no centre of the export's grid lies in it.
+  /// Throws ConfigError if forEachResampled() visits no voxel: the selection is empty, or so small
+  /// that no centre of the export's grid lies in it.
   void requireResampledVoxels() const;
   /// The smallest box around the voxels that forEachResampled() visits; nothing if there are none.
   std::optional<VoxelBox> resampledBounds() const;

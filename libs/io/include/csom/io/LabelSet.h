@@ -78,12 +78,12 @@ class LabelSet {
   /// Exact match; the free class never matches.
   std::optional<ClassId> classByColor(const Color& color) const;
 
-  /// This label set with a class named `unlabelled` behind the others, for points that hit something
-  /// of which no label is known; the same label set if it has one. Throws ConfigError if there is no
-  /// room for it.
+  /// This label set with a class named `unlabelled` behind the others, for points that hit
+  /// something of which no label is known; the same label set if it has one. Throws ConfigError if
+  /// there is no room for it.
   LabelSet withUnlabelledClass() const;
-  /// The class named `unlabelled`, which any label outvotes (see Options::unlabelled_class_id); 0 if
-  /// there is none.
+  /// The class named `unlabelled`, which any label outvotes (see Options::unlabelled_class_id); 0
+  /// if there is none.
   ClassId unlabelledClass() const;
 
   /// Canonical text, complete and readable by fromYaml().

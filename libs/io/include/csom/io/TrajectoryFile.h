@@ -22,10 +22,10 @@ std::vector<TimedPose> readTumTrajectory(const std::string& file);
 /// As readTumTrajectory() takes it, with nanometres and nanoseconds. Throws FileError.
 void writeTumTrajectory(const std::vector<TimedPose>& trajectory, const std::string& file);
 
-/// KITTI: lines of 12 numbers, a 3×4 matrix row by row; line i, counted from 0, is the pose of frame
-/// i, and nothing if it is blank: blank lines count, those at the end apart. The rotation is replaced
-/// by the nearest exact one; a matrix farther than 1 % from any rotation is an error, and so is a
-/// comment. Throws FileError naming file and line, also for a file without any pose.
+/// KITTI: lines of 12 numbers, a 3×4 matrix row by row; line i, counted from 0, is the pose of
+/// frame i, and nothing if it is blank: blank lines count, those at the end apart. The rotation is
+/// replaced by the nearest exact one; a matrix farther than 1 % from any rotation is an error, and
+/// so is a comment. Throws FileError naming file and line, also for a file without any pose.
 std::vector<std::optional<Eigen::Isometry3d>> readKittiPoses(const std::string& file);
 
 }  // namespace csom

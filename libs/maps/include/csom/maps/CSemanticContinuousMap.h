@@ -130,8 +130,8 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   /// Loads the networks of labelOptions now instead of at the first image. Throws ConfigError or
   /// FileError for what is wrong with them.
   void openLabelSources();
-  /// Uses the networks, and the label cache, of a map that has the same label sources: what has been
-  /// loaded there is not loaded again. Throws std::invalid_argument if they are not the same.
+  /// Uses the networks, and the label cache, of a map that has the same label sources: what has
+  /// been loaded there is not loaded again. Throws std::invalid_argument if they are not the same.
   void takeLabelSourcesOf(const CSemanticContinuousMap& other);
   /// Called for every scan that cameras have labelled, from now on; not by copies.
   void setLabelledScanObserver(LabelledScanObserver observer);

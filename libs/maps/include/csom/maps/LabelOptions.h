@@ -29,8 +29,9 @@ struct LabelSource {
 std::string toString(LabelSource::Kind value);
 void parse(const std::string& key, const std::string& text, LabelSource::Kind& value);
 
-/// What becomes of points that no camera sees, or that show nothing with a class: left out, as in the
-/// paper, or kept as occupied without a label, so that what stands beside the robot is in the map.
+/// What becomes of points that no camera sees, or that show nothing with a class: left out, as in
+/// the paper, or kept as occupied without a label, so that what stands beside the robot is in the
+/// map.
 enum class OutsideView { Drop, Unlabelled };
 
 struct LabelOptions {
@@ -60,7 +61,8 @@ void visitLabelOptions(LabelOptionsLike& o, Visitor&& visitor) {
   visitor(
       "outside_view", o.outside_view, "",
       "points that no camera sees, or not properly, become occupied by a class `unlabelled`, which "
-      "is added to the label set and which any label outvotes (unlabelled), or are left out (drop), "
+      "is added to the label set and which any label outvotes (unlabelled), or are left out "
+      "(drop), "
       "as in the paper");
   visitor("visibility", o.points.visibility, "",
           "points that something nearer hides from the camera are rejected");

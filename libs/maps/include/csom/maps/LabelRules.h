@@ -35,8 +35,8 @@ struct PointLabel {
 };
 
 /// Points by what became of their labels. Something is there, whatever it may be: a point without
-/// a class of its own receives the class for unlabelled points if there is one, unless the label set
-/// says that it is not to be used. All others are dropped.
+/// a class of its own receives the class for unlabelled points if there is one, unless the label
+/// set says that it is not to be used. All others are dropped.
 struct LabelCounts {
   std::size_t labelled = 0;      ///< had a class of their own
   std::size_t unlabelled = 0;    ///< had no label and received the class for unlabelled points

@@ -24,7 +24,7 @@ struct AdaptedScan {
   Scan scan;
   LabelCounts labels;
   std::size_t no_returns = 0;  ///< see SensorPoints
-  double timestamp = 0;  ///< seconds since 1970 (UTC); 0 if unknown
+  double timestamp = 0;        ///< seconds since 1970 (UTC); 0 if unknown
   std::string sensor_label;
   std::string observation_class;  ///< "CObservationVelodyneScan", …
 };

@@ -13,8 +13,9 @@ namespace csom {
 
 /// Points in the frame of the sensor, with one label each.
 ///
-/// Sensors write down a beam that nothing has thrown back as well: as a range of 0, below 0 or beyond
-/// what they can measure, or as the point (0,0,0). Such a beam is no point, whatever `min_range` is.
+/// Sensors write down a beam that nothing has thrown back as well: as a range of 0, below 0 or
+/// beyond what they can measure, or as the point (0,0,0). Such a beam is no point, whatever
+/// `min_range` is.
 struct SensorPoints {
   mrpt::poses::CPose3D sensor_pose;     ///< on the robot
   std::vector<Eigen::Vector3f> points;  ///< [m]; may hold non-finite values, but never (0,0,0)

@@ -40,8 +40,9 @@ bool naturalLess(const std::string& a, const std::string& b);
 
 namespace detail {
 
-/// Files of `folder` that end in `extension` (".bin"), in natural order. Throws FileError if there
-/// is no such folder or no such file in it.
+/// Files of `folder` that end in `extension` (".bin"), in any case, in natural order. Throws
+/// FileError if there is no such folder or no such file in it, or if one of them is no file (a
+/// broken link).
 std::vector<std::string> filesIn(const std::string& folder, const std::string& extension);
 
 /// The numbers that files are named by ("000012.bin" → 12): files of one frame have one number, and

@@ -10,14 +10,15 @@ namespace csom {
 
 struct KittiRawImport {
   /// Holds velodyne_points/data/*.bin, and image_00 … image_03 (any of them) with data/*.png or
-  /// *.jpg. Time stamps come from velodyne_points/timestamps.txt and those of the image folders; scans
-  /// without are 0.1 s apart, images without have the time of their scan.
+  /// *.jpg. Time stamps come from velodyne_points/timestamps.txt and those of the image folders;
+  /// scans without are 0.1 s apart, images without have the time of their scan.
   std::string folder;
   /// Folder of calib_velo_to_cam.txt and calib_cam_to_cam.txt; empty: `folder`/calib, or `folder`,
   /// or the folder above it. Only needed if there are images.
   std::string calibration;
   ScanSelection selection;
-  bool embed_images = false;  ///< into the rawlog (without loss) instead of copies in RAWLOG_Images/
+  bool embed_images =
+      false;  ///< into the rawlog (without loss) instead of copies in RAWLOG_Images/
 };
 
 /// Writes, for each frame, the images (CObservationImage, labels "image_00" …, rectified pinhole

@@ -66,11 +66,11 @@ class PoseSource {
   bool knows(const RawlogEntry& entry) const;
 
   /// Nothing if there is no pose for this observation: it lies outside the time span of the poses,
-  /// lies in a gap of them that is too long (see PoseTrack), or has no time stamp. Poses in time are
-  /// interpolated (positions linearly, rotations by SLERP); a pose of exactly the time of the
+  /// lies in a gap of them that is too long (see PoseTrack), or has no time stamp. Poses in time
+  /// are interpolated (positions linearly, rotations by SLERP); a pose of exactly the time of the
   /// observation, or in its sensory frame, is taken as it is. With a KITTI file an observation has
-  /// the pose of its frame, if the log says which frames it holds, else the n-th observation of every
-  /// sensor label has the n-th pose: call once for each observation.
+  /// the pose of its frame, if the log says which frames it holds, else the n-th observation of
+  /// every sensor label has the n-th pose: call once for each observation.
   std::optional<mrpt::poses::CPose3D> poseOf(const RawlogEntry& entry,
                                              const mrpt::obs::CObservation& observation);
 
@@ -109,12 +109,12 @@ class PoseSource {
   std::vector<std::optional<mrpt::poses::CPose3D>> by_index_;  ///< lines of a KITTI file
   std::map<std::string, std::size_t> next_index_;
   std::shared_ptr<const detail::FrameNumbers> frames_;  ///< null: the n-th scan has the n-th pose
-  Gaps refused_;        ///< too long to interpolate across
-  Gaps interpolated_;   ///< all others
-  std::size_t outside_ = 0;  ///< observations before the first or after the last pose
+  Gaps refused_;                                        ///< too long to interpolate across
+  Gaps interpolated_;                                   ///< all others
+  std::size_t outside_ = 0;          ///< observations before the first or after the last pose
   std::optional<PoseGap> observed_;  ///< times of the first and the last observation
-  std::map<std::string, double> last_time_;  ///< by sensor label
-  std::vector<double> spacings_;             ///< of the observations of one label [s]
+  std::map<std::string, double> last_time_;         ///< by sensor label
+  std::vector<double> spacings_;                    ///< of the observations of one label [s]
   std::unique_ptr<detail::RegisteredScans> scans_;  ///< null for other poses
 };
 

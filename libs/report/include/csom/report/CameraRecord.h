@@ -55,8 +55,8 @@ struct CameraPointCounts {
   std::size_t unseenAndDropped() const { return dropped(hidden + at_edge); }
   std::size_t ignoredAndDropped() const { return dropped(ignored); }
   std::size_t unknownAndDropped() const { return dropped(unknown); }
-  /// Points that were looked at and have no label. What lies outside of all views was not: nothing is
-  /// wrong with such a point.
+  /// Points that were looked at and have no label. What lies outside of all views was not: nothing
+  /// is wrong with such a point.
   std::size_t rejected() const {
     return unseenAndDropped() + low_confidence + ignoredAndDropped() + unknownAndDropped();
   }
