@@ -356,5 +356,17 @@ TEST_F(MapFileTest, TablesAreTablesAndNotQueriesThatNeverEnd) {
   }
 }
 
+TEST(MapFileLocks, AFileThatSomebodyElseHoldsSaysSo) {
+  const TempFolder folder;
+  const std::string file = folder / "map.csom";
+  saveMap(sampleDocument(), file);
+  sqlite3* holder = nullptr;
+  ASSERT_EQ(sqlite3_open(file.c_str(), &holder), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(holder, "BEGIN EXCLUSIVE", nullptr, nullptr, nullptr), SQLITE_OK);
+  EXPECT_THAT(loadError(file), AllOf(HasSubstr(file), HasSubstr("cannot be locked"),
+                                     HasSubstr("its file system has no locks")));
+  sqlite3_close(holder);
+}
+
 }  // namespace
 }  // namespace csom::test

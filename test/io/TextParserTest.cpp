@@ -25,6 +25,27 @@ TEST(TextParser, QuotedWordsAreShort) {
   EXPECT_EQ(detail::quoted(std::string(61, 'x')), "'" + std::string(60, 'x') + "…'");
 }
 
+TEST(TextParser, B8_PrintableTextTurnsNothingRoundAndHidesNothing) {
+  EXPECT_EQ(printable("a\xe2\x80\xae"
+                      "b"),
+            "a?b")
+      << "right to left from here on";
+  EXPECT_EQ(printable("a\xe2\x80\x8b"
+                      "b"),
+            "a?b")
+      << "a space of no width";
+  EXPECT_EQ(printable("\xff\xc0\xafx\xe2\x80"), "???x??") << "no UTF-8";
+}
+
+TEST(TextParser, QuotedWordsEndBetweenCharacters) {
+  const std::string start(59, 'x');
+  EXPECT_EQ(detail::quoted(start + "\xc3\xa9" + "yy"), "'" + start + "…'");
+}
+
+TEST(TextParser, LowerCaseLeavesAllButLettersOfAsciiAsItIs) {
+  EXPECT_EQ(lowerCase("AbZ_09[\xc3\x84"), "abz_09[\xc3\x84");
+}
+
 TEST(TextParser, JoinsWords) {
   EXPECT_EQ(joined({}), "");
   EXPECT_EQ(joined({"a"}), "a");

@@ -10,6 +10,7 @@
 namespace csom::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -36,6 +37,21 @@ class CheckpointsTest : public testing::Test {
                    "insertOpts]\nmethod = s-csm\nds_resolution = 0.5\n" + section +
                    "labelSource_00]\nsensor_label = camera\nsource = label_image\n"
                    "label_image = camera_labels\n");
+  }
+
+  /// Its labels from a network whose files lie in the folder of the test.
+  void useCampusWithNetwork() {
+    for (const char* name : {"campus.yaml", "campus.onnx"})
+      std::filesystem::copy_file(shipped("config/networks/") + name, folder / name);
+    request.logs = {shipped("rawlogs/campus.rawlog")};
+    request.config_file = folder / "network.ini";
+    const std::string section = "[MappingApplication_semanticContinuousMap_00_";
+    writeBytes(request.config_file,
+               "[MappingApplication]\nsemanticContinuousMap_count = 1\n" + section +
+                   "creationOpts]\nlabel_set = simulator\nresolution = 0.5\n" + section +
+                   "insertOpts]\nmethod = s-csm\nds_resolution = 0.5\n" + section +
+                   "labelSource_00]\nsensor_label = camera\nsource = network\n"
+                   "network = campus.yaml\n");
   }
 
   CheckpointRequest everyEntry(bool resume = false) const {
@@ -110,6 +126,44 @@ TEST_F(CheckpointsTest, ImagesAndScansThatWaitAreKept) {
   const std::string expected = undisturbed();
   EXPECT_EQ(stoppedAfter(17), expected);
   EXPECT_EQ(stoppedAfter(44, 100'000), expected);
+}
+
+TEST_F(CheckpointsTest, B9_AResumedRunLoadsItsNetworksOnceAndBeforeItBegins) {
+  useCampusWithNetwork();
+  const MappingResult once = mapLogs(request);
+  // The first entry after the stop may be an image or not.
+  for (const int entries : {16, 17, 18, 19, 20}) {
+    CheckpointRequest checkpoints = everyEntry();
+    checkpoints.seconds = 1e6;
+    int left = entries;
+    checkpoints.stop = [&left] { return --left == 0; };
+    EXPECT_THROW(mapLogs(request, {}, checkpoints), Interrupted);
+    // Whatever becomes of the model after that is too late: it is in memory.
+    checkpoints.resume = true;
+    checkpoints.stop = [this] {
+      std::filesystem::remove(folder / "campus.onnx");
+      return false;
+    };
+    MappingResult result = mapLogs(request, {}, checkpoints);
+    EXPECT_EQ(result.refused, once.refused) << entries;
+    EXPECT_EQ(finish(std::move(result)), mapDigest(once.map->map())) << entries;
+    std::filesystem::copy_file(shipped("config/networks/campus.onnx"), folder / "campus.onnx");
+  }
+}
+
+TEST_F(CheckpointsTest, B9_TimesThatAreNoWholeNumberOfThemAreRefused) {
+  int left = 3;
+  CheckpointRequest checkpoints = everyEntry();
+  checkpoints.stop = [&left] { return --left == 0; };
+  EXPECT_THROW(mapLogs(request, {}, checkpoints), Interrupted);
+  {
+    const auto store = MapStore::open(file);
+    MapStore::State state = store->state();
+    state.at("insert_ms").pop_back();
+    store->commit({}, MapStore::Voxels::Add, store->loadScans(), state);
+  }
+  const std::string error = fileErrorOf([&] { mapLogs(request, {}, everyEntry(true)); });
+  EXPECT_THAT(error, AllOf(HasSubstr(file), HasSubstr("insert_ms"), HasSubstr("bytes")));
 }
 
 TEST_F(CheckpointsTest, WhatIsCountedIsThatOfTheWholeRun) {

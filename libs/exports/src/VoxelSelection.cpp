@@ -156,8 +156,7 @@ void VoxelSelection::requireResampledVoxels() const {
   if (any) return;
   throw ConfigError(
       "the selection is so small that, in the pose of the export, no voxel of the exported grid "
-      "has "
-      "its centre in it: there is nothing to export; select more, or choose a pose of whole "
+      "has its centre in it: there is nothing to export; select more, or choose a pose of whole "
       "voxels");
 }
 

@@ -269,7 +269,8 @@ std::unique_ptr<MapStore> MapStore::create(const std::string& file, const MapDoc
     database.close();
   }
   auto lock = std::make_unique<detail::FileLock>(path, file);
-  if (!lock->sync()) throw FileError(file, "cannot be flushed to the disk");
+  if (!lock->sync())
+    throw FileError(file, std::string("cannot be flushed to the disk: ") + std::strerror(errno));
   if (!giveName(path, file))
     throw FileError(file, errno == EEXIST ? "is there already, of a run that has not been finished"
                                           : std::string("cannot be made: ") + std::strerror(errno));

@@ -22,9 +22,7 @@ constexpr std::size_t kMaxCount = 1000000;
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 bool equalInAnyCase(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
-    return std::tolower(x) == std::tolower(y);
-  });
+  return lowerCase(a) == lowerCase(b);
 }
 
 class HeaderReader {

@@ -18,11 +18,11 @@ struct PcdField {
   std::size_t size = 4;   ///< bytes of one value
   std::size_t count = 1;  ///< values a point; 0: the field is named, but holds nothing
 
-  /// Padding, which is left out of compressed data.
-  bool isPadding() const { return name == "_"; }
-
   std::size_t column = 0;  ///< of the first value, ascii
   std::size_t offset = 0;  ///< of the first value in a point, binary
+
+  /// Padding, which is left out of compressed data.
+  bool isPadding() const { return name == "_"; }
 };
 
 struct PcdHeader {

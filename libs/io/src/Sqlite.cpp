@@ -104,6 +104,10 @@ void Database::fail(const std::string& what) const {
       throw FileError(shown_name_, std::string("cannot be read or written: ") +
                                        (reason != 0 ? std::strerror(reason) : "disk I/O error"));
     }
+    case SQLITE_BUSY:
+      throw FileError(shown_name_,
+                      "cannot be locked: another program is writing to it, or its file system has "
+                      "no locks; in that case copy it, or write it, to another one");
     case SQLITE_CANTOPEN:
       throw FileError(
           shown_name_,

@@ -27,6 +27,13 @@ void splitColumns(std::string_view line, std::vector<std::string_view>& columns)
   }
 }
 
+std::string lowerCase(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
 namespace {
 
 /// Length of the UTF-8 character that begins a text, and its number; length 0 if there is none.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Will a program of MRPT find the semantic map in its ini file?
 #include <csom/core/Error.h>
+#include <csom/io/TextParser.h>
 #include <csom/maps/ApplicationIni.h>
 #include <csom/maps/CSemanticContinuousMap.h>
 #include <mrpt/config/CConfigFile.h>
@@ -75,10 +76,11 @@ class MapsOfIni {
     std::vector<std::string> keys;
     ini_.getAllKeys(section, keys);
     for (const std::string& key : keys) {
-      const std::string lower = lowerCase(key);
-      const auto name = std::find_if(
-          std::begin(kMapNames), std::end(kMapNames),
-          [&](const MapName& candidate) { return lower == lowerCase(candidate.name) + "_count"; });
+      const std::string lower = detail::lowerCase(key);
+      const auto name =
+          std::find_if(std::begin(kMapNames), std::end(kMapNames), [&](const MapName& candidate) {
+            return lower == detail::lowerCase(candidate.name) + "_count";
+          });
       if (name != std::end(kMapNames)) {
         const int count = number(section, key);
         if (count > kMostMaps)
@@ -167,8 +169,8 @@ std::vector<std::string> checkApplicationIni(const std::string& file,
   const MapsOfIni maps(file);
   std::vector<Definition> used;
   for (const Definition& definition : maps.definitions()) {
-    const bool is_read =
-        application == nullptr || lowerCase(definition.section) == lowerCase(application->section);
+    const bool is_read = application == nullptr || detail::lowerCase(definition.section) ==
+                                                       detail::lowerCase(application->section);
     if (is_read && definition.count > 0) used.push_back(definition);
   }
   if (used.empty()) throwNoMap(maps, application);
@@ -182,12 +184,13 @@ std::vector<std::string> checkApplicationIni(const std::string& file,
       const std::string prefix = numbered(definition, number);
       for (const std::string& key : readDefinition(maps.ini(), prefix))
         unread.push_back(key + ": unknown key, ignored");
-      prefixes.insert(lowerCase(prefix) + "_");
+      prefixes.insert(detail::lowerCase(prefix) + "_");
     }
   }
-  const std::string start = application == nullptr ? "" : lowerCase(application->section) + "_";
+  const std::string start =
+      application == nullptr ? "" : detail::lowerCase(application->section) + "_";
   for (const std::string& section : maps.sections()) {
-    const std::string lower = lowerCase(section);
+    const std::string lower = detail::lowerCase(section);
     if (lower.compare(0, start.size(), start) != 0) continue;
     if (lower.find("semantic") == std::string::npos) continue;
     const bool is_read = std::any_of(prefixes.begin(), prefixes.end(), [&](const auto& prefix) {

@@ -6,7 +6,6 @@
 #include <csom/io/TextParser.h>
 #include <csom/maps/MrptMessage.h>
 
-#include <algorithm>
 #include <cctype>
 #include <exception>
 #include <filesystem>
@@ -67,7 +66,7 @@ class GivenOnce {
   GivenOnce(const std::string& file, std::string what) : file_(file), what_(std::move(what)) {}
 
   void add(const std::string& name, std::size_t line) {
-    const auto [first, is_new] = lines_.emplace(lowerCase(name), line);
+    const auto [first, is_new] = lines_.emplace(detail::lowerCase(name), line);
     if (!is_new)
       throw ConfigError(file_ + ": " + what_ + name + " is given twice, in line " +
                         std::to_string(first->second) + " and in line " + std::to_string(line) +
@@ -84,7 +83,7 @@ class GivenOnce {
 
 void requireGivenOnce(const std::string& file, const std::string& section) {
   const std::string text = detail::readFile(file);
-  const std::string wanted = lowerCase(section);
+  const std::string wanted = detail::lowerCase(section);
   IniLines lines(text);
   GivenOnce sections(file, "section ");
   std::optional<GivenOnce> keys;  // nothing in sections that are not looked at
@@ -92,7 +91,7 @@ void requireGivenOnce(const std::string& file, const std::string& section) {
     if (line.empty() || line[0] == ';' || line[0] == '#' || line.compare(0, 2, "//") == 0) continue;
     if (line[0] == '[') {
       const std::string name = trimmed(line.substr(1, line.find(']') - 1));
-      const std::string lower = lowerCase(name);
+      const std::string lower = detail::lowerCase(name);
       keys.reset();
       if (lower != wanted && lower.compare(0, wanted.size() + 1, wanted + "_") != 0) continue;
       sections.add("[" + name + "]", lines.lineNumber());
@@ -101,12 +100,6 @@ void requireGivenOnce(const std::string& file, const std::string& section) {
       keys->add(trimmed(line.substr(0, equals)), lines.lineNumber());
     }
   }
-}
-
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 void openIni(const std::string& file, mrpt::config::CConfigFile& ini) {
@@ -133,7 +126,7 @@ IniSection::IniSection(const mrpt::config::CConfigFileBase& source, const std::s
     : source_(&source), section_(section) {}
 
 bool IniSection::has(const std::string& key) {
-  read_.insert(lowerCase(key));
+  read_.insert(detail::lowerCase(key));
   return source_->keyExists(section_, key);
 }
 
@@ -151,7 +144,7 @@ std::vector<std::string> IniSection::unreadKeys() const {
   source_->getAllKeys(section_, keys);
   std::vector<std::string> unread;
   for (const std::string& key : keys) {
-    if (read_.count(lowerCase(key)) == 0) unread.push_back(place() + " " + key);
+    if (read_.count(detail::lowerCase(key)) == 0) unread.push_back(place() + " " + key);
   }
   return unread;
 }

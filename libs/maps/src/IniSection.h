@@ -24,9 +24,6 @@ void requireGivenOnce(const std::string& file, const std::string& section);
 /// The file behind a configuration; empty if it was read from memory.
 std::string fileOf(const mrpt::config::CConfigFileBase& source);
 
-/// For comparisons: the names of sections and keys are the same in any case.
-std::string lowerCase(std::string text);
-
 /// Reads values of one section, and remembers which keys were asked for. Errors are ConfigErrors
 /// "FILE [section] key = value …".
 class IniSection {

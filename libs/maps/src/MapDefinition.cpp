@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The map as ini files define it.
 #include <csom/core/Error.h>
+#include <csom/io/TextParser.h>
 #include <csom/maps/CSemanticContinuousMap.h>
 #include <mrpt/config/CConfigFile.h>
 
@@ -96,7 +97,7 @@ class DefinitionReader {
     for (const std::string& suffix : suffixes) {
       IniSection section(source_, prefix_ + suffix);
       read(section);
-      known_.insert(lowerCase(prefix_ + suffix));
+      known_.insert(detail::lowerCase(prefix_ + suffix));
       const std::vector<std::string> unread = section.unreadKeys();
       unknown_.insert(unknown_.end(), unread.begin(), unread.end());
     }
@@ -106,9 +107,9 @@ class DefinitionReader {
     std::vector<std::string> all = unknown_;
     std::vector<std::string> sections;
     source_.getAllSections(sections);
-    const std::string start = lowerCase(prefix_ + "_");
+    const std::string start = detail::lowerCase(prefix_ + "_");
     for (const std::string& name : sections) {
-      const std::string lower = lowerCase(name);
+      const std::string lower = detail::lowerCase(name);
       if (lower.compare(0, start.size(), start) != 0 || known_.count(lower) != 0) continue;
       std::vector<std::string> keys;
       source_.getAllKeys(name, keys);

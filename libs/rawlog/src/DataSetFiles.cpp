@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
@@ -18,12 +17,6 @@
 namespace csom::detail {
 
 namespace fs = std::filesystem;
-
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 void requireReadable(const fs::directory_entry& entry) {
   std::error_code error;

@@ -14,8 +14,6 @@ namespace csom::detail {
 
 constexpr double kScanPeriod = 0.1;  ///< [s], where a data set gives no times
 
-std::string lowerCase(std::string text);
-
 /// A file of a data set that cannot be read must not be passed over: a link may be broken where a
 /// disk is missing. Throws FileError.
 void requireReadable(const std::filesystem::directory_entry& entry);

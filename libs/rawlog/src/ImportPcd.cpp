@@ -6,7 +6,6 @@
 #include <csom/rawlog/RawlogWriter.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <map>
 
@@ -44,9 +43,8 @@ constexpr char kLabel[] = "cloud";  ///< of the sensor
 constexpr char kDefaultField[] = "label";
 
 /// Names under which others write classes.
-bool looksLikeLabels(std::string field) {
-  std::transform(field.begin(), field.end(), field.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+bool looksLikeLabels(const std::string& name) {
+  const std::string field = detail::lowerCase(name);
   for (const char* word : {"label", "class", "semantic", "categor", "segment"})
     if (field.find(word) != std::string::npos) return true;
   return false;

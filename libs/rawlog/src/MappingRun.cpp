@@ -22,8 +22,8 @@
 #include "ExternalFiles.h"
 #include "MappingState.h"
 #include "MrptText.h"
+#include "ObservationKind.h"
 #include "PosedLog.h"
-#include "RegisteredScans.h"
 
 namespace csom {
 namespace {
@@ -34,7 +34,6 @@ using mrpt::poses::CPose3D;
 constexpr char kOtherKind[] = "of a kind that this map does not take";
 
 constexpr char kNoLabelSource[] = "no label source of the ini names their sensor label";
-constexpr char kNoPose[] = "no pose at its time";
 constexpr char kNoPoints[] = "none of its points can be used";
 
 /// Enough for the network to find the next scan ready, few enough for memory.
@@ -266,7 +265,7 @@ void MappingRun::mapEntry(const detail::PosedEntry& entry) {
   for (const auto& [observation, pose] : entry.observations) {
     ++state_.observations_read;
     if (!pose) {
-      refuse(*observation, kNoPose);
+      refuse(*observation, "no pose at its time");
       continue;
     }
     insert(*observation, *pose);

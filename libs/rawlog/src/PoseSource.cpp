@@ -12,6 +12,7 @@
 
 #include "EigenPose.h"
 #include "FrameNumbers.h"
+#include "Median.h"
 #include "MrptText.h"
 #include "RegisteredScans.h"
 
@@ -286,15 +287,6 @@ void PoseSource::Gaps::add(const PoseGap& gap) {
   if (gap.length() > longest.length()) longest = gap;
 }
 
-/// Median; 0 if there are no two of one sensor.
-double PoseSource::spacingOfObservations() const {
-  if (spacings_.empty()) return 0;
-  std::vector<double> spacings = spacings_;
-  const auto median = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
-  std::nth_element(spacings.begin(), median, spacings.end());
-  return *median;
-}
-
 std::vector<std::string> PoseSource::doubts() const {
   constexpr double kWideGap = 10;  // in distances of observations
   constexpr double kAlwaysPlausible = 1;
@@ -307,7 +299,7 @@ std::vector<std::string> PoseSource::doubts() const {
                      " observations have no pose, as they lie between poses that are too far apart "
                      "in time (the longest gap: " +
                      span(refused_.longest) + " s)");
-  const double spacing = spacingOfObservations();
+  const double spacing = detail::medianOf(spacings_);
   if (spacing > 0 &&
       interpolated_.longest.length() > std::max(kAlwaysPlausible, kWideGap * spacing))
     doubts.push_back("poses are interpolated across gaps of up to " +

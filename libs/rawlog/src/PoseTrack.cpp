@@ -8,6 +8,8 @@
 #include <iterator>
 #include <vector>
 
+#include "Median.h"
+
 namespace csom {
 namespace {
 
@@ -53,9 +55,8 @@ void PoseTrack::limitGapsBySpacing() {
   std::vector<double> spacings;
   for (auto pose = std::next(poses_.begin()); pose != poses_.end(); ++pose)
     spacings.push_back(pose->first - std::prev(pose)->first);
-  const auto median = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
-  std::nth_element(spacings.begin(), median, spacings.end());
-  limitGaps(std::clamp(kTimesTheSpacing * *median, kAlwaysPlausible, kNeverPlausible));
+  limitGaps(
+      std::clamp(kTimesTheSpacing * detail::medianOf(spacings), kAlwaysPlausible, kNeverPlausible));
 }
 
 bool PoseTrack::isPlausible(const std::pair<const double, mrpt::poses::CPose3D>& before,

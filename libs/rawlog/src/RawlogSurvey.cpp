@@ -12,7 +12,7 @@
 #include "ExternalFiles.h"
 #include "FrameNumbers.h"
 #include "MrptText.h"
-#include "RegisteredScans.h"
+#include "ObservationKind.h"
 
 namespace csom {
 namespace {

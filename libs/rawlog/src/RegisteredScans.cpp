@@ -4,10 +4,6 @@
 
 #include <csom/maps/PointExtractor.h>
 #include <csom/rawlog/Deskew.h>
-#include <mrpt/obs/CObservationImage.h>
-#include <mrpt/obs/CObservationPointCloud.h>
-#include <mrpt/obs/CObservationRotatingScan.h>
-#include <mrpt/obs/CObservationStereoImages.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <chrono>
@@ -15,6 +11,7 @@
 
 #include "EigenPose.h"
 #include "MrptText.h"
+#include "ObservationKind.h"
 
 namespace csom::detail {
 namespace {
@@ -39,17 +36,6 @@ std::vector<Eigen::Vector3f> pointsOnRobot(const mrpt::obs::CObservation& scan) 
 }
 
 }  // namespace
-
-bool isScan3D(const mrpt::obs::CObservation& observation) {
-  return dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(&observation) != nullptr ||
-         dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation) != nullptr ||
-         dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation) != nullptr;
-}
-
-bool isImage(const mrpt::obs::CObservation& observation) {
-  return dynamic_cast<const mrpt::obs::CObservationImage*>(&observation) != nullptr ||
-         dynamic_cast<const mrpt::obs::CObservationStereoImages*>(&observation) != nullptr;
-}
 
 void RegisteredScans::add(const mrpt::obs::CObservation& observation, PoseTrack& track) {
   if (observation.sensorLabel != sensor_label_ || !isScan3D(observation)) return;

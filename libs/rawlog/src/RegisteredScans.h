@@ -13,11 +13,6 @@
 
 namespace csom::detail {
 
-/// True for the kinds that registration takes: CObservationVelodyneScan, CObservationPointCloud and
-/// CObservationRotatingScan.
-bool isScan3D(const mrpt::obs::CObservation& observation);
-bool isImage(const mrpt::obs::CObservation& observation);
-
 /// Registers the 3-D scans of one sensor.
 class RegisteredScans {
  public:

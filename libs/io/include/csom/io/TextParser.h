@@ -40,6 +40,9 @@ bool parseNumber(std::string_view text, Number& value) {
   return result.ec == std::errc() && result.ptr == end;
 }
 
+/// ASCII letters in lower case, all else as it is: for comparisons without regard to case.
+std::string lowerCase(std::string_view text);
+
 /// Text from a file as it may be shown on a terminal: control characters, those that change the
 /// direction of writing or cannot be seen, and bytes that are no UTF-8 become '?'.
 std::string printable(std::string_view text);

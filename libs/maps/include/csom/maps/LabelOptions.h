@@ -62,8 +62,7 @@ void visitLabelOptions(LabelOptionsLike& o, Visitor&& visitor) {
       "outside_view", o.outside_view, "",
       "points that no camera sees, or not properly, become occupied by a class `unlabelled`, which "
       "is added to the label set and which any label outvotes (unlabelled), or are left out "
-      "(drop), "
-      "as in the paper");
+      "(drop), as in the paper");
   visitor("visibility", o.points.visibility, "",
           "points that something nearer hides from the camera are rejected");
   visitor("visibility_margin", o.points.visibility_margin, "m",

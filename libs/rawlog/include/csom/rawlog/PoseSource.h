@@ -99,7 +99,6 @@ class PoseSource {
   void useKittiFile(const RawlogSurvey& survey);
   std::optional<mrpt::poses::CPose3D> byFrame(const mrpt::obs::CObservation& observation);
   std::optional<mrpt::poses::CPose3D> byTime(const mrpt::obs::CObservation& observation);
-  double spacingOfObservations() const;
   void useScans(const RawlogSurvey& survey);
 
   PoseChoice choice_;
