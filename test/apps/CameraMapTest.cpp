@@ -95,6 +95,25 @@ TEST_F(CameraMap, SaysHowManyScansHadNoImage) {
   });
 }
 
+TEST_F(CameraMap, ACacheThatCannotBeWrittenToCostsNoLabel) {
+  namespace fs = std::filesystem;
+  const std::vector<std::string> with_cache{"--label-cache", folder / "cache"};
+  ASSERT_EQ(map(kConfig, with_cache).exit_code, 0);
+  const std::string digest = mapDigest(loadMap(folder / "out/map.csom").map);
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder / "cache")) files.push_back(entry.path());
+  ASSERT_EQ(files.size(), 68U);
+  for (const fs::path& file : files) {
+    fs::remove(file);
+    fs::create_directory(file);
+  }
+  const auto run = map(kConfig, with_cache);
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr("what networks said is not kept for later runs"));
+  EXPECT_THAT(run.errors, HasSubstr("cannot be written: Is a directory"));
+  EXPECT_EQ(mapDigest(loadMap(folder / "out/map.csom").map), digest);
+}
+
 TEST_F(CameraMap, ADamagedModelStopsBeforeTheFirstImage) {
   std::string model = readBytes(CSOM_SOURCE_DIR "/config/networks/campus.onnx");
   writeBytes(folder / "damaged.onnx", model.substr(0, model.size() / 2));

@@ -114,6 +114,19 @@ TEST_F(LabelCacheTest, KeepsChannelsRatherThanClasses) {
   EXPECT_EQ(found->classAt({3, 3}).id, 5);
 }
 
+TEST_F(LabelCacheTest, AFileUnderTheNameOfAnotherIsNotBelieved) {
+  const LabelCache cache(cache_folder_, network_);
+  cache.store(image_, *segment(image_));
+  const cv::Mat other = randomImage({50, 30}, CV_8UC3, 2);
+  cache.store(other, *segment(other));
+  const auto files = cached();
+  ASSERT_EQ(files.size(), 2U);
+  std::filesystem::copy_file(files[0], files[1], std::filesystem::copy_options::overwrite_existing);
+  const bool first = cache.find(image_, classOf) != nullptr;
+  const bool second = cache.find(other, classOf) != nullptr;
+  EXPECT_NE(first, second);
+}
+
 TEST_F(LabelCacheTest, PicturesAreNotMistakenForEachOther) {
   const LabelCache cache(cache_folder_, network_);
   cache.store(image_, *segment(image_));
@@ -169,7 +182,7 @@ TEST_F(LabelCacheTest, DamagedFilesAreMadeAnew) {
   const std::string file = cached().at(0);
   const std::string bytes = readBytes(file);
   std::vector<std::string> contents{"", "no picture", bytes.substr(8)};
-  for (std::size_t size = 1; size < bytes.size() - 12; size += 37)
+  for (std::size_t size = 1; size < bytes.size(); size += 37)
     contents.push_back(bytes.substr(0, size));
   // Pictures of another kind, or of another size.
   for (const cv::Mat& other :
@@ -188,27 +201,17 @@ TEST_F(LabelCacheTest, DamagedFilesAreMadeAnew) {
   expectSameBits(*cache.find(image_, classOf), *labels);
 }
 
-TEST_F(LabelCacheTest, AFlippedBitNeverChangesALabel) {
+TEST_F(LabelCacheTest, AFileWithAFlippedBitIsNotBelieved) {
   const LabelCache cache(cache_folder_, network_);
-  const auto labels = segment(image_);
-  cache.store(image_, *labels);
+  cache.store(image_, *segment(image_));
   const std::string file = cached().at(0);
   const std::string bytes = readBytes(file);
-  const cv::Mat expected = dynamic_cast<const ScoreImage&>(*labels).distances();
-  std::size_t refused = 0;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     std::string flipped = bytes;
     flipped[i] = static_cast<char>(flipped[i] ^ (1 << (i % 8)));
     writeBytes(file, flipped);
-    const auto found = cache.find(image_, classOf);
-    if (found)
-      ASSERT_EQ(
-          cv::norm(dynamic_cast<const ScoreImage&>(*found).distances(), expected, cv::NORM_INF), 0)
-          << "byte " << i;
-    else
-      ++refused;
+    ASSERT_EQ(cache.find(image_, classOf), nullptr) << "byte " << i;
   }
-  EXPECT_GT(refused, bytes.size() / 2);
 }
 
 TEST_F(LabelCacheTest, ThreadsSeeCompleteFilesOrNone) {

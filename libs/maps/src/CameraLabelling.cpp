@@ -274,6 +274,7 @@ void CameraLabelling::evaluate(const std::vector<std::pair<std::size_t, Streamed
       ++(labels.from_cache[i] ? counts.from_cache : counts.network_runs);
     }
     statistics_.network_seconds += labels.network_seconds;
+    if (statistics_.cache_fault.empty()) statistics_.cache_fault = labels.cache_fault;
   }
 }
 

@@ -88,9 +88,20 @@ LabelledImages ImageLabeller::label(const std::vector<cv::Mat>& images) {
   labelled.network_seconds = elapsed.count();
   for (std::size_t i = 0; i < missing.size(); ++i) {
     labelled.images[places[i]] = segmented[i];
-    if (cache_) cache_->store(missing[i], *segmented[i]);
+    keep(missing[i], *segmented[i], labelled);
   }
   return labelled;
+}
+
+void ImageLabeller::keep(const cv::Mat& image, const SemanticImage& labels,
+                         LabelledImages& labelled) {
+  if (!cache_) return;
+  try {
+    cache_->store(image, labels);
+  } catch (const FileError& error) {
+    labelled.cache_fault = error.what();
+    cache_.reset();
+  }
 }
 
 }  // namespace csom

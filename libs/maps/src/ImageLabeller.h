@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace csom {
@@ -18,6 +19,7 @@ struct LabelledImages {
   std::vector<std::shared_ptr<const SemanticImage>> images;
   std::vector<bool> from_cache;  ///< one an image
   double network_seconds = 0;    ///< the network alone
+  std::string cache_fault;       ///< why they could not be kept in the cache; empty: they were
 };
 
 /// The class that a raw id stands for in images. Free is no class that something seen can have.
@@ -33,11 +35,13 @@ class ImageLabeller {
 
   /// Loads the model now. Throws FileError.
   void loadNetwork();
-  /// One result an image, in order. Throws FileError if the network cannot be used.
+  /// One result an image, in order. A cache that cannot be written to is given up: what the network
+  /// says is as right without it. Throws FileError if the network cannot be used.
   LabelledImages label(const std::vector<cv::Mat>& images);
 
  private:
   void loadLocked();
+  void keep(const cv::Mat& image, const SemanticImage& labels, LabelledImages& labelled);
 
   std::mutex mutex_;
   NetworkDescription description_;

@@ -448,6 +448,8 @@ void MappingRun::warnAboutCameras() {
     if (source.images_read == 0)
       warn("label source " + detail::quoted(source.sensor_label) + ": no image of it was read");
   }
+  if (!cameras->cache_fault.empty())
+    warn("what networks said is not kept for later runs from here on: " + cameras->cache_fault);
   warnAboutViews(*cameras);
   if (cameras->scans_without_image > 0)
     warn(counted(cameras->scans_without_image, "scans") +

@@ -7,6 +7,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -25,7 +26,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// To be changed with the meaning of the files: files of other versions are not found.
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
+
+constexpr std::size_t kSealSize = 32;
 
 /// XXH3, 128 bits, over a sequence of pieces.
 class Hasher {
@@ -71,6 +74,12 @@ std::optional<std::vector<std::uint8_t>> bytesOf(const std::string& file) {
   stream.seekg(0);
   if (!stream.read(reinterpret_cast<char*>(bytes.data()), size)) return std::nullopt;
   return bytes;
+}
+
+/// Stands behind the PNG, where no decoder looks: a file that was changed, or that has come under
+/// the name of another image, is not believed.
+std::string sealOf(const std::string& key, const std::uint8_t* png, std::size_t size) {
+  return Hasher().text(key).bytes(png, size).digits();
 }
 
 /// The file appears complete or not at all. It is not flushed to the disk: what a power failure
@@ -126,18 +135,27 @@ LabelCache::LabelCache(std::string folder, const NetworkDescription& description
   if (!fs::is_directory(folder_)) throw FileError(folder_, "cannot be made a folder for labels");
 }
 
-std::string LabelCache::fileOf(const cv::Mat& image) const {
+std::string LabelCache::keyOf(const cv::Mat& image) const {
   Hasher hasher;
   hasher.text(network_hash_).number(image.type()).number(image.rows).number(image.cols);
   const std::size_t row_size = static_cast<std::size_t>(image.cols) * image.elemSize();
   for (int row = 0; row < image.rows; ++row) hasher.bytes(image.ptr(row), row_size);
-  return (fs::path(folder_) / (hasher.digits() + ".png")).string();
+  return hasher.digits();
+}
+
+std::string LabelCache::fileOf(const std::string& key) const {
+  return (fs::path(folder_) / (key + ".png")).string();
 }
 
 std::shared_ptr<const SemanticImage> LabelCache::find(const cv::Mat& image,
                                                       const RawToClass& class_of) const {
-  const auto bytes = bytesOf(fileOf(image));
-  if (!bytes || bytes->empty()) return nullptr;
+  const std::string key = keyOf(image);
+  auto bytes = bytesOf(fileOf(key));
+  if (!bytes || bytes->size() <= kSealSize) return nullptr;
+  const std::size_t size = bytes->size() - kSealSize;
+  const std::string seal = sealOf(key, bytes->data(), size);
+  if (!std::equal(seal.begin(), seal.end(), bytes->end() - kSealSize)) return nullptr;
+  bytes->resize(size);
   try {
     return detail::semanticImage(description_, cv::imdecode(*bytes, cv::IMREAD_UNCHANGED),
                                  image.size(), class_of);
@@ -149,11 +167,14 @@ std::shared_ptr<const SemanticImage> LabelCache::find(const cv::Mat& image,
 }
 
 void LabelCache::store(const cv::Mat& image, const SemanticImage& labels) const {
-  const std::string file = fileOf(image);
+  const std::string key = keyOf(image);
+  const std::string file = fileOf(key);
   std::vector<std::uint8_t> bytes;
   // With OpenCV's settings: others make smaller files, but take longer to read.
   if (!cv::imencode(".png", detail::storedForm(labels), bytes))
     throw FileError(file, "cannot be written: the output of the network is too large for a PNG");
+  const std::string seal = sealOf(key, bytes.data(), bytes.size());
+  bytes.insert(bytes.end(), seal.begin(), seal.end());
   writeAtOnce(file, bytes);
 }
 

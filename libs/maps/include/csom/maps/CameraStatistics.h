@@ -39,6 +39,10 @@ struct CameraStatistics {
   double network_seconds = 0;    ///< networks alone
   double labelling_seconds = 0;  ///< projection, visibility, sampling of labels
 
+  /// Why the label cache is no longer written to; empty if it is, or if there is none. Not carried
+  /// by streams.
+  std::string cache_fault;
+
   /// Points that the map never got.
   std::size_t pointsDropped() const;
   /// Those of them that some camera has in its view.
