@@ -26,8 +26,8 @@ class CheckpointsTest : public testing::Test {
     request.config_file = writeConfig(folder);
   }
 
-  /// Ini for the campus with its camera: images, label images and scans wait for each other.
-  void useCampusWithCamera() {
+  /// The campus, its labels from `source`, the lines of the ini that say so.
+  void useCampus(const std::string& source) {
     request.logs = {shipped("rawlogs/campus.rawlog")};
     request.config_file = folder / "camera.ini";
     const std::string section = "[MappingApplication_semanticContinuousMap_00_";
@@ -35,23 +35,17 @@ class CheckpointsTest : public testing::Test {
                "[MappingApplication]\nsemanticContinuousMap_count = 1\n" + section +
                    "creationOpts]\nlabel_set = simulator\nresolution = 0.5\n" + section +
                    "insertOpts]\nmethod = s-csm\nds_resolution = 0.5\n" + section +
-                   "labelSource_00]\nsensor_label = camera\nsource = label_image\n"
-                   "label_image = camera_labels\n");
+                   "labelSource_00]\nsensor_label = camera\n" + source);
   }
 
-  /// Its labels from a network whose files lie in the folder of the test.
+  /// Images, label images and scans wait for each other.
+  void useCampusWithCamera() { useCampus("source = label_image\nlabel_image = camera_labels\n"); }
+
+  /// The files of the network lie in the folder of the test.
   void useCampusWithNetwork() {
     for (const char* name : {"campus.yaml", "campus.onnx"})
       std::filesystem::copy_file(shipped("config/networks/") + name, folder / name);
-    request.logs = {shipped("rawlogs/campus.rawlog")};
-    request.config_file = folder / "network.ini";
-    const std::string section = "[MappingApplication_semanticContinuousMap_00_";
-    writeBytes(request.config_file,
-               "[MappingApplication]\nsemanticContinuousMap_count = 1\n" + section +
-                   "creationOpts]\nlabel_set = simulator\nresolution = 0.5\n" + section +
-                   "insertOpts]\nmethod = s-csm\nds_resolution = 0.5\n" + section +
-                   "labelSource_00]\nsensor_label = camera\nsource = network\n"
-                   "network = campus.yaml\n");
+    useCampus("source = network\nnetwork = campus.yaml\n");
   }
 
   CheckpointRequest everyEntry(bool resume = false) const {
