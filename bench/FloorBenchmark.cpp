@@ -69,7 +69,7 @@ void registerFloor(const std::vector<SensorScan>& sensor_scans, const std::vecto
   for (const Neighbourhood neighbourhood : {Neighbourhood::Radius, Neighbourhood::ExtendedBlock}) {
     const auto run = [&sensor_scans, &scans, neighbourhood](benchmark::State& state) {
       Options options = mapOptions();
-      options.neighbourhood = neighbourhood;
+      options.see_csom.neighbourhood = neighbourhood;
       std::vector<std::size_t> updates;
       for (const Scan& scan : scans) updates.push_back(countUpdates(scan, options));
       std::vector<std::uint32_t> counts(*std::max_element(updates.begin(), updates.end()));
@@ -78,7 +78,7 @@ void registerFloor(const std::vector<SensorScan>& sensor_scans, const std::vecto
       timeInsertions(
           state, scans.size(), [] { return 0; },
           [&](int, std::size_t i) {
-            keyPoints(sensor_scans[i], options.ds_resolution, keys);
+            keyPoints(sensor_scans[i], options.scan.ds_resolution, keys);
             radixSort(keys, other);
             benchmark::DoNotOptimize(keys.data());
             for (std::size_t update = 0; update < updates[i]; ++update) counts[update] += 1;

@@ -54,13 +54,13 @@ void registerInsertions(const std::vector<Scan>& scans) {
   for (const Neighbourhood neighbourhood : {Neighbourhood::Radius, Neighbourhood::ExtendedBlock}) {
     const std::string name = "insert/" + toString(neighbourhood);
     Options options = mapOptions();
-    options.neighbourhood = neighbourhood;
+    options.see_csom.neighbourhood = neighbourhood;
     add(name, scans, options);
     Options two_threads = options;
     two_threads.threads = 2;
     add(name + "/two-threads", scans, two_threads);
     Options fine = options;
-    fine.resolution = fine.ds_resolution = 0.1;
+    fine.resolution = fine.scan.ds_resolution = 0.1;
     add(name + "/fine", scans, fine);
   }
   Options surface = mapOptions();
@@ -70,8 +70,8 @@ void registerInsertions(const std::vector<Scan>& scans) {
   add("insert/surface-csom/two-threads", scans, surface);
   for (const FreeSpace free_space : {FreeSpace::None, FreeSpace::Sampled, FreeSpace::Raycast}) {
     Options options = mapOptions();
-    options.max_range = 50;
-    options.free_space = free_space;
+    options.scan.max_range = 50;
+    options.free_space.mode = free_space;
     add("insert/free-space/" + toString(free_space), scans, options);
   }
 }

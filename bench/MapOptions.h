@@ -13,7 +13,7 @@ inline Options mapOptions() {
   options.number_of_classes = kClasses;
   options.method = Method::SeeCsom;
   options.resolution = 0.3;
-  options.ds_resolution = 0.2;
+  options.scan.ds_resolution = 0.2;
   return options;
 }
 

@@ -13,7 +13,7 @@ namespace csom::bench {
 
 namespace {
 
-octomap::Pointcloud cloudOf(const Scan& scan) {
+octomap::Pointcloud makeCloud(const Scan& scan) {
   const Eigen::Vector3f origin = scan.origin.cast<float>();
   octomap::Pointcloud cloud;
   for (const Eigen::Vector3f& point : scan.points) {
@@ -28,7 +28,7 @@ octomap::Pointcloud cloudOf(const Scan& scan) {
 void registerOctoMap(const std::vector<Scan>& scans) {
   const auto run = [&scans](benchmark::State& state) {
     std::vector<octomap::Pointcloud> clouds;
-    for (const Scan& scan : scans) clouds.push_back(cloudOf(scan));
+    for (const Scan& scan : scans) clouds.push_back(makeCloud(scan));
     timeInsertions(
         state, scans.size(),
         [] { return std::make_unique<octomap::OcTree>(mapOptions().resolution); },

@@ -18,8 +18,8 @@ constexpr double kRange = 50;  // [m]
 /// A map with free space, which rays go through.
 SemanticMap mapToAsk(const std::vector<Scan>& scans) {
   Options options = mapOptions();
-  options.free_space = FreeSpace::Raycast;
-  options.max_range = kRange;
+  options.free_space.mode = FreeSpace::Raycast;
+  options.scan.max_range = kRange;
   SemanticMap map(options);
   for (const Scan& scan : scans) map.insert(scan);
   return map;

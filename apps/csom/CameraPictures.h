@@ -3,8 +3,8 @@
 #pragma once
 
 #include <csom/io/LabelSet.h>
-#include <csom/maps/CameraLabelledAdapter.h>
-#include <csom/report/CameraRecord.h>
+#include <csom/maps/LabelledScan.h>
+#include <csom/report/CameraPicture.h>
 
 #include <vector>
 

@@ -22,4 +22,10 @@ std::string commandLine() {
   return line;
 }
 
+std::string withFlags(const std::string& text, const std::vector<std::string>& options) {
+  std::string flags;
+  for (const std::string& option : options) flags += (flags.empty() ? " (--" : ", --") + option;
+  return text + (flags.empty() ? "" : flags + ")");
+}
+
 }  // namespace csom

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace csom {
 
@@ -11,5 +12,8 @@ std::string commandLine();
 
 /// A word as one would type it in a shell.
 std::string shellQuoted(const std::string& word);
+
+/// A text of a library with the options that it names as they are given here: "… (--box, --frame)".
+std::string withFlags(const std::string& text, const std::vector<std::string>& options);
 
 }  // namespace csom

@@ -70,8 +70,8 @@ void addMapOptions(CLI::App& command, MapArguments& arguments) {
 }
 
 void check(const MapArguments& arguments) {
-  constexpr std::uint64_t kLeastMemory = 1000000;
-  if (arguments.max_memory && *arguments.max_memory < kLeastMemory)
+  constexpr std::uint64_t kMinMemory = 1000000;
+  if (arguments.max_memory && *arguments.max_memory < kMinMemory)
     throw ConfigError("--max-memory " + std::to_string(*arguments.max_memory) +
                       " is less than 1 MB; write the unit too, as in 500MB");
   if (arguments.resume.empty()) {
@@ -88,7 +88,7 @@ void check(const MapArguments& arguments) {
         "--no-html, --color-blind and --json");
 }
 
-MappingRequest requestOf(const MapArguments& arguments) {
+MappingRequest readRequest(const MapArguments& arguments) {
   MappingRequest request;
   request.logs = arguments.logs;
   request.config_file = arguments.config;
@@ -100,7 +100,7 @@ MappingRequest requestOf(const MapArguments& arguments) {
   return request;
 }
 
-std::map<std::string, std::string> notesOf(const MapArguments& arguments) {
+std::map<std::string, std::string> makeNotes(const MapArguments& arguments) {
   std::map<std::string, std::string> notes;
   if (!arguments.simplemap.empty())
     notes["simplemap"] = std::filesystem::absolute(arguments.simplemap).string();

@@ -36,10 +36,10 @@ void addMapOptions(CLI::App& command, MapArguments& arguments);
 /// Throws ConfigError for options that do not go together.
 void check(const MapArguments& arguments);
 
-MappingRequest requestOf(const MapArguments& arguments);
+MappingRequest readRequest(const MapArguments& arguments);
 
 /// What a resumed run must know of the arguments beside the request, and back.
-std::map<std::string, std::string> notesOf(const MapArguments& arguments);
+std::map<std::string, std::string> makeNotes(const MapArguments& arguments);
 /// Throws ConfigError if the run wrote a file outside of its folder that is not named again.
 void applyNotes(const MapStore::State& state, MapArguments& arguments);
 

@@ -4,8 +4,6 @@
 
 #include <csom/io/TextParser.h>
 
-#include <type_traits>
-
 #include "CameraPictures.h"
 #include "CommandLine.h"
 
@@ -21,67 +19,20 @@ std::string poseSourcesOf(const MappingResult& result) {
   return detail::joined(names);
 }
 
-/// Words as text, numbers and switches as such.
-template <class Field>
-decltype(Parameter::value) parameterValue(const Field& field) {
-  if constexpr (std::is_arithmetic_v<Field>)
-    return field;
-  else
-    return toString(field);
+template <class OptionsLike>
+void append(std::vector<Parameter>& parameters, const OptionsLike& options) {
+  const std::vector<Parameter> more = toParameters(options);
+  parameters.insert(parameters.end(), more.begin(), more.end());
 }
 
-std::vector<Parameter> parametersOf(const CSemanticContinuousMap& map) {
-  std::vector<Parameter> parameters = parametersOf(map.map().options());
-  const auto& labels = map.insertionOptions;
-  parameters.push_back(
-      {"point_labels", toString(labels.point_labels), "", "none | intensity | color"});
-  parameters.push_back(
-      {"unlabelled_class", labels.unlabelled_class, "", "class of points without a label"});
-  parameters.push_back({"scan_2d_class", labels.scan_2d_class, "", "class of 2-D scans"});
-  if (!map.labelOptions.usesCameras()) return parameters;
-  visitLabelOptions(map.labelOptions,
-                    [&](const char* key, const auto& field, const char* unit, const char* help) {
-                      parameters.push_back({key, parameterValue(field), unit, help});
-                    });
+std::vector<Parameter> makeParameters(const CSemanticContinuousMap& map) {
+  std::vector<Parameter> parameters = toParameters(map.map().options());
+  append(parameters, map.insertionOptions);
+  if (map.labelOptions.usesCameras()) append(parameters, map.labelOptions);
   return parameters;
 }
 
-CameraLabels cameraLabelsOf(const CameraStatistics& statistics) {
-  CameraLabels labels;
-  for (const CameraStatistics::Source& source : statistics.sources) {
-    CameraSource camera;
-    camera.sensor_label = source.sensor_label;
-    camera.source = toString(source.kind);
-    camera.images.read = source.images_read;
-    camera.images.used = source.images_used;
-    camera.images.network_runs = source.network_runs;
-    camera.images.from_cache = source.from_cache;
-    camera.images.refused = source.images_refused;
-    camera.images.unused = source.images_read - source.images_used - source.images_refused;
-    labels.cameras.push_back(camera);
-  }
-  labels.scans.labelled = statistics.scans_labelled;
-  labels.scans.without_image = statistics.scans_without_image;
-  labels.scans.late = statistics.scans_late;
-  labels.clock_restarts = statistics.restarts;
-  const auto points = [&](PointFate fate) {
-    return statistics.points[static_cast<std::size_t>(fate)];
-  };
-  labels.points.labelled = points(PointFate::Labelled);
-  labels.points.outside_view = points(PointFate::OutsideView);
-  labels.points.hidden = points(PointFate::Hidden);
-  labels.points.at_edge = points(PointFate::AtEdge);
-  labels.points.low_confidence = points(PointFate::LowConfidence);
-  labels.points.ignored = points(PointFate::Ignored);
-  labels.points.unknown = points(PointFate::Unknown);
-  labels.points.kept_unlabelled = statistics.kept_unlabelled;
-  labels.seconds.network = statistics.network_seconds;
-  labels.seconds.image_decoding = statistics.image_seconds;
-  labels.seconds.labelling = statistics.labelling_seconds;
-  return labels;
-}
-
-std::vector<CameraPicture> picturesOf(const MappingResult& result) {
+std::vector<CameraPicture> makePictures(const MappingResult& result) {
   std::vector<CameraPicture> pictures;
   const auto add = [&](const std::optional<LabelledScan>& scan, CameraPicture::Moment moment) {
     if (!scan) return;
@@ -96,13 +47,13 @@ std::vector<CameraPicture> picturesOf(const MappingResult& result) {
 
 }  // namespace
 
-RunRecord recordOf(const MappingRequest& request, const MappingResult& result, double seconds) {
+RunRecord makeRecord(const MappingRequest& request, const MappingResult& result, double seconds) {
   RunRecord record;
   record.program_version = CSOM_VERSION;
   record.command = commandLine();
   record.inputs = request.logs;
   record.config_file = request.config_file;
-  record.parameters = parametersOf(*result.map);
+  record.parameters = makeParameters(*result.map);
   record.pose_source = poseSourcesOf(result);
   record.up = result.up;
   record.label_set = result.map->labels().name();
@@ -112,19 +63,14 @@ RunRecord recordOf(const MappingRequest& request, const MappingResult& result, d
     record.scans.push_back({scans[i], result.insert_ms.at(i)});
   const InsertionStatistics& statistics = result.map->statistics();
   record.unused = statistics.unused;
-  record.label_rejects = {statistics.labels.missing, statistics.labels.unknown,
-                          statistics.labels.ignored, statistics.labels.ambiguous};
-  record.kept_unlabelled = statistics.labels.unlabelled + statistics.labels.kept_unknown;
+  record.labels = statistics.labels;
   record.no_returns = statistics.no_returns;
   for (const auto& [what, count] : result.refused)
     record.refused.push_back({what.first, what.second, count});
-  if (const auto cameras = result.map->cameraStatistics())
-    record.camera_labels = cameraLabelsOf(*cameras);
-  if (const auto& done = result.deskew)
-    record.deskew = DeskewCounts{done->deskewed, done->not_needed, done->not_possible};
-  if (const auto& done = result.registration)
-    record.registration = RegistrationRecord{done->scans, done->doubtful, done->seconds};
-  record.pictures = picturesOf(result);
+  record.camera_labels = result.map->cameraStatistics();
+  record.deskew = result.deskew;
+  if (result.registration) record.registration = result.registration->statistics;
+  record.pictures = makePictures(result);
   record.warnings = result.warnings;
   record.wall_seconds = seconds;
   return record;

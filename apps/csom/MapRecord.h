@@ -8,6 +8,6 @@
 namespace csom {
 
 /// `seconds`: wall time of the run.
-RunRecord recordOf(const MappingRequest& request, const MappingResult& result, double seconds);
+RunRecord makeRecord(const MappingRequest& request, const MappingResult& result, double seconds);
 
 }  // namespace csom

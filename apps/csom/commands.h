@@ -8,21 +8,18 @@
 
 namespace csom {
 
-void addSimulateCommand(CLI::App& program);
-void addImportCommand(CLI::App& program);
-void addMapCommand(CLI::App& program);
-void addInfoCommand(CLI::App& program);
-void addQueryCommand(CLI::App& program);
-void addMergeCommand(CLI::App& program);
-void addRepairCommand(CLI::App& program);
-void addEvalCommand(CLI::App& program);
+using AddCommand = void(CLI::App& program);
+
+AddCommand addMapCommand, addInfoCommand, addQueryCommand, addExportCommand, addReportCommand,
+    addEvalCommand, addMergeCommand, addRepairCommand, addImportCommand, addSimulateCommand,
+    addWithCommand;
+/// All, in the order of the help.
+constexpr AddCommand* kCommands[] = {addMapCommand,      addInfoCommand,   addQueryCommand,
+                                     addExportCommand,   addReportCommand, addEvalCommand,
+                                     addMergeCommand,    addRepairCommand, addImportCommand,
+                                     addSimulateCommand, addWithCommand};
+
 /// Below `csom eval`.
-void addEvalCameraCommand(CLI::App& eval);
-void addEvalPointsCommand(CLI::App& eval);
-void addEvalRocCommand(CLI::App& eval);
-void addEvalRunCommand(CLI::App& eval);
-void addExportCommand(CLI::App& program);
-void addReportCommand(CLI::App& program);
-void addWithCommand(CLI::App& program);
+AddCommand addEvalRunCommand, addEvalPointsCommand, addEvalCameraCommand, addEvalRocCommand;
 
 }  // namespace csom

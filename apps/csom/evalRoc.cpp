@@ -29,7 +29,7 @@ struct Curves {
   RocCurve unknown_zero;
 };
 
-Curves curvesOf(const VoxelEvaluation& evaluation, const std::string& truth_file) {
+Curves makeCurves(const VoxelEvaluation& evaluation, const std::string& truth_file) {
   const auto half = evaluation.occupancy.curve(0.5);
   const auto zero = evaluation.occupancy.curve(0);
   if (!half || !zero)
@@ -50,7 +50,7 @@ void runEvalRoc(const EvalRocArguments& arguments) {
   MapWithTruth both = loadMapWithTruth(arguments.map, arguments.truth);
   const VoxelEvaluation evaluation =
       evaluateVoxels(CsomMapper(std::move(both.map.map)), VoxelTruth(both.truth.map));
-  const Curves curves = curvesOf(evaluation, arguments.truth);
+  const Curves curves = makeCurves(evaluation, arguments.truth);
   const double known =
       static_cast<double>(evaluation.known) / static_cast<double>(evaluation.score.voxels());
   if (arguments.json) {

@@ -4,8 +4,8 @@
 #include <csom/io/OutputFile.h>
 #include <csom/io/TextParser.h>
 #include <csom/protocols/EvaluationJson.h>
+#include <csom/protocols/EvaluationPage.h>
 #include <csom/protocols/EvaluationTables.h>
-#include <csom/report/EvaluationPage.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -50,7 +50,7 @@ std::vector<std::string> protocolsOf(const std::string& text) {
   return names;
 }
 
-EvaluationRequest requestOf(const EvalRunArguments& arguments) {
+EvaluationRequest readRequest(const EvalRunArguments& arguments) {
   EvaluationRequest request;
   request.protocols = protocolsOf(arguments.protocols);
   const auto methods = arguments.methods.empty() ? defaultMethods() : split(arguments.methods);
@@ -85,7 +85,7 @@ void write(const std::string& file, const std::string& text) {
 }
 
 void runEval(const EvalRunArguments& arguments) {
-  const EvaluationRequest request = requestOf(arguments);
+  const EvaluationRequest request = readRequest(arguments);
   const OutputFolder folder(arguments.output, {kJsonFile, kTablesFile, kPageFile});
   const Evaluation evaluation = evaluateWithProgress(request);
   for (const std::string& warning : evaluation.warnings)

@@ -11,10 +11,11 @@
 #include <csom/io/TextParser.h>
 #include <csom/mrpt_exports/MrptFiles.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <map>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -28,58 +29,64 @@ namespace csom {
 
 namespace {
 
-enum class ExportFormat { Ply, Pcd, Csv, Npz, Octomap, Nav2, Gridmap, Points, Glb, Vdb, Esdf };
-
-const std::map<std::string, ExportFormat>& formats() {
-  static const std::map<std::string, ExportFormat> words{
-      {"ply", ExportFormat::Ply},         {"pcd", ExportFormat::Pcd},
-      {"csv", ExportFormat::Csv},         {"npz", ExportFormat::Npz},
-      {"octomap", ExportFormat::Octomap}, {"nav2", ExportFormat::Nav2},
-      {"gridmap", ExportFormat::Gridmap}, {"points", ExportFormat::Points},
-      {"glb", ExportFormat::Glb},         {"vdb", ExportFormat::Vdb},
-      {"esdf", ExportFormat::Esdf}};
-  return words;
-}
-
-/// Throws ConfigError, which takes one line, as any other export that cannot be done.
-ExportFormat formatNamed(const std::string& name) {
-  const auto found = formats().find(CLI::detail::to_lower(name));
-  if (found != formats().end()) return found->second;
-  std::string known;
-  for (const auto& [word, format] : formats()) known += (known.empty() ? "" : ", ") + word;
-  throw ConfigError("--to: no format '" + name + "'; there are " + known);
-}
+struct ExportFormat;
 
 struct ExportArguments {
   std::string file;
   std::string output;
-  ExportFormat format = ExportFormat::Ply;
+  const ExportFormat* format = nullptr;
   std::shared_ptr<VoxelFilterArguments> filter = std::make_shared<VoxelFilterArguments>();
   std::vector<std::string> traversable;
   NavigationOptions navigation;  ///< without classes
   double max_distance = 5;       ///< of a distance field [m]
 };
 
+/// Writes arguments.output, and returns what was written, for people.
+using WriteExport = std::string(const ExportArguments& arguments, const VoxelSelection& voxels,
+                                const LabelSet& labels);
+
+struct ExportFormat {
+  const char* name;
+  const char* help;
+  WriteExport* write;
+  /// Options of the command that it alone takes, or shares with others.
+  std::vector<std::string> options;
+};
+
 std::string countText(std::size_t count, const char* what) {
   return std::to_string(count) + " " + what;
 }
 
-std::string writeNavigation(const ExportArguments& arguments, const VoxelSelection& voxels,
-                            const LabelSet& labels) {
+NavigationGrid navigationGrid(const ExportArguments& arguments, const VoxelSelection& voxels,
+                              const LabelSet& labels) {
   NavigationOptions options = arguments.navigation;
   options.traversable = classesNamed("--traversable", arguments.traversable, labels);
-  const NavigationGrid grid(voxels, options);
-  if (arguments.format == ExportFormat::Gridmap)
-    writeGridmap(grid, arguments.output);
-  else
-    writeNavigationFiles(grid, labels, NavigationFiles::named(arguments.output));
+  return NavigationGrid(voxels, options);
+}
+
+std::string cellsOf(const NavigationGrid& grid) {
   using State = NavigationGrid::State;
   return std::to_string(grid.width()) + " x " + std::to_string(grid.height()) + " cells, " +
          std::to_string(grid.count(State::Free)) + " free, " +
          std::to_string(grid.count(State::Occupied)) + " occupied";
 }
 
-std::string writeDistances(const ExportArguments& arguments, const VoxelSelection& voxels) {
+std::string writeNav2(const ExportArguments& arguments, const VoxelSelection& voxels,
+                      const LabelSet& labels) {
+  const NavigationGrid grid = navigationGrid(arguments, voxels, labels);
+  writeNavigationFiles(grid, labels, NavigationFiles::named(arguments.output));
+  return cellsOf(grid);
+}
+
+std::string writeGridmapFile(const ExportArguments& arguments, const VoxelSelection& voxels,
+                             const LabelSet& labels) {
+  const NavigationGrid grid = navigationGrid(arguments, voxels, labels);
+  writeGridmap(grid, arguments.output);
+  return cellsOf(grid);
+}
+
+std::string writeDistances(const ExportArguments& arguments, const VoxelSelection& voxels,
+                           const LabelSet& /*labels*/) {
   const DistanceField field(voxels, arguments.max_distance);
   writeDistanceField(field, arguments.output);
   const auto [width, height, depth] = field.size();
@@ -87,44 +94,91 @@ std::string writeDistances(const ExportArguments& arguments, const VoxelSelectio
          " voxels";
 }
 
-/// Returns what was written, for people.
-std::string writeExport(const ExportArguments& arguments, const VoxelSelection& voxels,
-                        const LabelSet& labels) {
-  const std::string& output = arguments.output;
-  switch (arguments.format) {
-    case ExportFormat::Ply:
-      return countText(writePly(voxels, labels, output), "voxels");
-    case ExportFormat::Pcd:
-      return countText(writePcd(voxels, labels, output), "voxels");
-    case ExportFormat::Csv:
-      return countText(writeCsv(voxels, labels, output), "voxels");
-    case ExportFormat::Npz:
-      return countText(writeNpz(voxels, labels, output), "voxels");
-    case ExportFormat::Octomap:
-      return countText(writeOctomap(voxels, labels, output), "occupied voxels");
-    case ExportFormat::Points:
-      return countText(writePointMap(voxels, labels, output), "voxels");
-    case ExportFormat::Glb:
-      return countText(writeGlb(voxels, labels, output), "triangles");
-    case ExportFormat::Vdb:
-      return countText(writeVdb(voxels, labels, output), "voxels");
-    case ExportFormat::Nav2:
-    case ExportFormat::Gridmap:
-      return writeNavigation(arguments, voxels, labels);
-    case ExportFormat::Esdf:
-      return writeDistances(arguments, voxels);
-  }
-  throw std::invalid_argument("export: unknown format");
+/// All formats, in the order of the help.
+const std::vector<ExportFormat>& formats() {
+  static const std::vector<ExportFormat> all{
+      {"ply",
+       "points with colour, class, probability, variance: MeshLab, CloudCompare",
+       [](const auto& a, const auto& voxels, const auto& labels) {
+         return countText(writePly(voxels, labels, a.output), "voxels");
+       },
+       {}},
+      {"pcd",
+       "points x y z rgb label, in single precision: PCL",
+       [](const auto& a, const auto& voxels, const auto& labels) {
+         return countText(writePcd(voxels, labels, a.output), "voxels");
+       },
+       {}},
+      {"csv",
+       "x,y,z,class_id,class_name,probability,variance,evidence",
+       [](const auto& a, const auto& voxels, const auto& labels) {
+         return countText(writeCsv(voxels, labels, a.output), "voxels");
+       },
+       {}},
+      {"npz",
+       "the same as NumPy arrays",
+       [](const auto& a, const auto& voxels, const auto& labels) {
+         return countText(writeNpz(voxels, labels, a.output), "voxels");
+       },
+       {}},
+      {"octomap",
+       ".ot: occupancy and colours of classes; .bt: occupancy. With free space",
+       [](const auto& a, const auto& voxels, const auto& labels) {
+         return countText(writeOctomap(voxels, labels, a.output), "occupied voxels");
+       },
+       {}},
+      {"nav2",
+       ".yaml and .pgm of ROS's map_server, and a .png of classes",
+       writeNav2,
+       {"--traversable", "--obstacle-band", "--robot-height"}},
+      {"gridmap",
+       "the same cells as MRPT's COccupancyGridMap2D",
+       writeGridmapFile,
+       {"--traversable", "--obstacle-band", "--robot-height"}},
+      {"points",
+       "points with class ids as MRPT's CPointsMapXYZI",
+       [](const auto& a, const auto& voxels, const auto& labels) {
+         return countText(writePointMap(voxels, labels, a.output), "voxels");
+       },
+       {}},
+      {"glb",
+       "mesh of the surface, a material a class: web, Blender",
+       [](const auto& a, const auto& voxels, const auto& labels) {
+         return countText(writeGlb(voxels, labels, a.output), "triangles");
+       },
+       {}},
+      {"vdb",
+       "grids of class, occupancy and variance: OpenVDB",
+       [](const auto& a, const auto& voxels, const auto& labels) {
+         return countText(writeVdb(voxels, labels, a.output), "voxels");
+       },
+       {}},
+      {"esdf",
+       "distances to the nearest obstacle as NumPy arrays",
+       writeDistances,
+       {"--max-distance"}},
+  };
+  return all;
 }
 
-std::vector<std::string> outputsOf(const ExportArguments& arguments) {
-  if (arguments.format != ExportFormat::Nav2) return {arguments.output};
+/// Throws ConfigError, which takes one line, as any other export that cannot be done.
+const ExportFormat* formatNamed(const std::string& name) {
+  std::string known;
+  for (const ExportFormat& format : formats()) {
+    if (CLI::detail::to_lower(name) == format.name) return &format;
+    known += (known.empty() ? "" : ", ") + std::string(format.name);
+  }
+  throw ConfigError("--to: no format '" + name + "'; there are " + known);
+}
+
+std::vector<std::string> listOutputs(const ExportArguments& arguments) {
+  if (arguments.format->write != writeNav2) return {arguments.output};
   const NavigationFiles files = NavigationFiles::named(arguments.output);
   return {files.yaml, files.image, files.classes};
 }
 
 void runExport(const ExportArguments& arguments) {
-  requireSeparateOutputs(outputsOf(arguments), {arguments.file});
+  requireSeparateOutputs(listOutputs(arguments), {arguments.file});
   const MapDocument document = loadMap(arguments.file);
   std::string written;
   {
@@ -132,7 +186,7 @@ void runExport(const ExportArguments& arguments) {
     const VoxelSelection voxels(
         document.map, arguments.filter->filterFor(document.labels), arguments.filter->frame,
         [&](std::size_t seen, std::size_t known) { progress.update(seen, known); });
-    written = writeExport(arguments, voxels, document.labels);
+    written = arguments.format->write(arguments, voxels, document.labels);
   }
   // Not to standard output: -o may be /dev/stdout.
   std::fprintf(stderr, "%s: %s\n", detail::printable(arguments.output).c_str(), written.c_str());
@@ -145,47 +199,51 @@ NavigationOptions::Band parseBand(const std::string& text) {
   return {n[0], n[1]};
 }
 
+/// Adds options that only some formats take; a use with another format is refused.
 void addFormatOptions(CLI::App& command, const std::shared_ptr<ExportArguments>& arguments) {
-  CLI::Option* traversable =
-      command
-          .add_option("--traversable", arguments->traversable,
-                      "nav2, gridmap: classes that the robot drives on (names or ids)")
-          ->delimiter(',')
-          ->type_name("A,B");
-  CLI::Option* band = command
-                          .add_option_function<std::string>(
-                              "--obstacle-band",
-                              [arguments](const std::string& text) {
-                                arguments->navigation.band = parseBand(text);
-                              },
-                              "nav2, gridmap: only what lies between these heights counts")
-                          ->type_name("z0,z1");
-  CLI::Option* height =
-      command
-          .add_option("--robot-height", arguments->navigation.robot_height,
-                      "nav2, gridmap: what begins this far above the ground is no obstacle")
-          ->check(CLI::PositiveNumber)
-          ->capture_default_str()
-          ->type_name("METRES");
-  CLI::Option* distance = command
-                              .add_option("--max-distance", arguments->max_distance,
-                                          "esdf: distances are no longer than this")
-                              ->check(CLI::PositiveNumber)
-                              ->capture_default_str()
-                              ->type_name("METRES");
+  command
+      .add_option("--traversable", arguments->traversable,
+                  "nav2, gridmap: classes that the robot drives on (names or ids)")
+      ->delimiter(',')
+      ->type_name("A,B");
+  command
+      .add_option_function<std::string>(
+          "--obstacle-band",
+          [arguments](const std::string& text) { arguments->navigation.band = parseBand(text); },
+          "nav2, gridmap: only what lies between these heights counts")
+      ->type_name("z0,z1");
+  command
+      .add_option("--robot-height", arguments->navigation.robot_height,
+                  "nav2, gridmap: what begins this far above the ground is no obstacle")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->type_name("METRES");
+  command
+      .add_option("--max-distance", arguments->max_distance,
+                  "esdf: distances are no longer than this")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->type_name("METRES");
   // After all options were read: by then the format is known.
-  command.parse_complete_callback([=] {
-    const auto requireFormat = [](const CLI::Option* option, bool fits, const char* words) {
-      if (option->count() > 0 && !fits)
-        throw CLI::ValidationError(option->get_name(),
-                                   std::string("is an option of --to ") + words);
-    };
-    const ExportFormat format = arguments->format;
-    const bool navigation = format == ExportFormat::Nav2 || format == ExportFormat::Gridmap;
-    for (const CLI::Option* option : {traversable, band, height})
-      requireFormat(option, navigation, "nav2 and gridmap");
-    requireFormat(distance, format == ExportFormat::Esdf, "esdf");
+  command.parse_complete_callback([&command, arguments] {
+    std::map<std::string, std::string> takers;
+    for (const ExportFormat& format : formats())
+      for (const std::string& option : format.options)
+        takers[option] += (takers[option].empty() ? "" : " and ") + std::string(format.name);
+    const std::vector<std::string>& taken = arguments->format->options;
+    for (const auto& [option, formats] : takers)
+      if (command.get_option(option)->count() > 0 &&
+          std::find(taken.begin(), taken.end(), option) == taken.end())
+        throw CLI::ValidationError(option, "is an option of --to " + formats);
   });
+}
+
+std::string formatsHelp() {
+  std::string help = "Formats:\n";
+  for (const ExportFormat& format : formats())
+    help += "  " + std::string(format.name) + std::string(9 - std::strlen(format.name), ' ') +
+            format.help + "\n";
+  return help;
 }
 
 }  // namespace
@@ -203,26 +261,14 @@ void addExportCommand(CLI::App& program) {
   command->add_option("-o,--output", arguments->output, "file to write")->required();
   addVoxelFilter(*command, arguments->filter);
   addFormatOptions(*command, arguments);
-  command->footer(
-      "Formats:\n"
-      "  ply      points with colour, class, probability, variance: MeshLab, CloudCompare\n"
-      "  pcd      points x y z rgb label, in single precision: PCL\n"
-      "  csv      x,y,z,class_id,class_name,probability,variance,evidence\n"
-      "  npz      the same as NumPy arrays\n"
-      "  octomap  .ot: occupancy and colours of classes; .bt: occupancy. With free space\n"
-      "  nav2     .yaml and .pgm of ROS's map_server, and a .png of classes\n"
-      "  gridmap  the same cells as MRPT's COccupancyGridMap2D\n"
-      "  points   points with class ids as MRPT's CPointsMapXYZI\n"
-      "  glb      mesh of the surface, a material a class: web, Blender\n"
-      "  vdb      grids of class, occupancy and variance: OpenVDB\n"
-      "  esdf     distances to the nearest obstacle as NumPy arrays\n"
-      "docs/exports.md says more.\n\n"
-      "Examples:\n"
-      "  csom export out/map.csom --to ply -o map.ply\n"
-      "  csom export out/map.csom --to csv --classes road,sidewalk -o ground.csv\n"
-      "  csom export out/map.csom --to octomap -o map.ot\n"
-      "  csom export out/map.csom --to nav2 --traversable road,sidewalk -o map.yaml\n"
-      "  csom export out/map.csom --to esdf --box 0,-10,0,20,10,3 -o distances.npz");
+  command->footer(formatsHelp() +
+                  "docs/exports.md says more.\n\n"
+                  "Examples:\n"
+                  "  csom export out/map.csom --to ply -o map.ply\n"
+                  "  csom export out/map.csom --to csv --classes road,sidewalk -o ground.csv\n"
+                  "  csom export out/map.csom --to octomap -o map.ot\n"
+                  "  csom export out/map.csom --to nav2 --traversable road,sidewalk -o map.yaml\n"
+                  "  csom export out/map.csom --to esdf --box 0,-10,0,20,10,3 -o distances.npz");
   command->callback([arguments] { runExport(*arguments); });
 }
 

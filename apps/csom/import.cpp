@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "Arguments.h"
+#include "CommandLine.h"
 #include "OutputPaths.h"
 #include "Progress.h"
 #include "commands.h"
@@ -47,7 +48,8 @@ void printSummary(const ImportSummary& summary, const std::string& rawlog) {
               formatCount(summary.scans, "scan").c_str(),
               formatCount(summary.points, "point").c_str());
   if (summary.images > 0) std::printf(", %s", formatCount(summary.images, "image").c_str());
-  std::printf("\nlabels: %s\n", detail::printable(summary.labels).c_str());
+  std::printf("\nlabels: %s\n",
+              detail::printable(withFlags(summary.labels, summary.options)).c_str());
 }
 
 void addSemanticKitti(CLI::App& import_command) {

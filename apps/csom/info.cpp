@@ -70,14 +70,13 @@ void printAsJson(const MapDocument& document, const MapFigures& figures) {
   json["scans"] = scansToJson(document);
   json["classes"] = classesToJson(figures.classes);
   Json options = Json::object();
-  visitOptions(document.map.options(),
-               [&](const char* name, const auto& value, const char*, const char*) {
-                 using Value = std::decay_t<decltype(value)>;
-                 if constexpr (std::is_enum_v<Value>)
-                   options[name] = toString(value);
-                 else
-                   options[name] = value;
-               });
+  visitOptions(document.map.options(), [&](const OptionInfo& option, const auto& value) {
+    using Value = std::decay_t<decltype(value)>;
+    if constexpr (std::is_enum_v<Value>)
+      options[option.key] = toString(value);
+    else
+      options[option.key] = value;
+  });
   json["options"] = options;
   json["meta"] = document.meta;
   printJson(json);
@@ -128,10 +127,9 @@ void printAsText(const MapDocument& document, const MapFigures& figures) {
   printClasses(document, figures);
 
   std::printf("\noptions\n");
-  visitOptions(document.map.options(),
-               [](const char* name, const auto& value, const char* unit, const char*) {
-                 std::printf("  %-24s %s %s\n", name, toString(value).c_str(), unit);
-               });
+  visitOptions(document.map.options(), [](const OptionInfo& option, const auto& value) {
+    std::printf("  %-24s %s %s\n", option.key, toString(value).c_str(), option.unit);
+  });
   if (!document.meta.empty()) std::printf("\nmeta\n");
   for (const auto& [key, value] : document.meta)
     std::printf("  %-24s %s\n", detail::printable(key).c_str(), detail::printable(value).c_str());
@@ -169,7 +167,7 @@ void runInfo(const InfoArguments& arguments) {
     return;
   }
   const MapDocument document = loadMap(arguments.file);
-  const MapFigures figures = figuresOf(document);
+  const MapFigures figures = computeFigures(document);
   if (arguments.json)
     printAsJson(document, figures);
   else

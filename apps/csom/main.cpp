@@ -11,6 +11,7 @@
 #include <new>
 #include <string>
 
+#include "CommandLine.h"
 #include "StopSignal.h"
 #include "commands.h"
 
@@ -64,17 +65,7 @@ int main(int argc, char** argv) {
   program.footer(
       "'csom COMMAND --help' shows the options and examples of a command.\n"
       "Exit codes: 0 done, 1 failed, 2 wrong usage or configuration, 130 stopped by Ctrl-C.");
-  csom::addMapCommand(program);
-  csom::addInfoCommand(program);
-  csom::addQueryCommand(program);
-  csom::addExportCommand(program);
-  csom::addReportCommand(program);
-  csom::addEvalCommand(program);
-  csom::addMergeCommand(program);
-  csom::addRepairCommand(program);
-  csom::addImportCommand(program);
-  csom::addSimulateCommand(program);
-  csom::addWithCommand(program);
+  for (csom::AddCommand* add : csom::kCommands) add(program);
 
   if (const std::string unknown = unknownCommand(program, argc, argv); !unknown.empty()) {
     std::fprintf(stderr, "csom: %s\n", csom::detail::printable(unknown).c_str());
@@ -90,15 +81,11 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     program.exit(error);
     return kUsage;
-  } catch (const csom::ConfigError& error) {
-    std::fprintf(stderr, "csom: %s\n", csom::detail::printable(error.what()).c_str());
-    return kUsage;
-  } catch (const csom::OptionError& error) {
-    std::fprintf(stderr, "csom: %s\n", csom::detail::printable(error.what()).c_str());
-    return kUsage;
-  } catch (const csom::Interrupted& error) {
-    std::fprintf(stderr, "csom: %s\n", csom::detail::printable(error.what()).c_str());
-    return kInterrupted;
+  } catch (const csom::Error& error) {
+    std::fprintf(stderr, "csom: %s\n",
+                 csom::detail::printable(csom::withFlags(error.what(), error.options())).c_str());
+    if (dynamic_cast<const csom::ConfigError*>(&error) != nullptr) return kUsage;
+    return dynamic_cast<const csom::Interrupted*>(&error) != nullptr ? kInterrupted : kFailed;
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "csom: memory is used up\n");
     return kFailed;

@@ -52,7 +52,7 @@ MappingResult mapWithProgress(const MappingRequest& request, const CheckpointReq
       checkpoints);
 }
 
-MapDocument documentOf(const RunRecord& record, const MappingResult& result) {
+MapDocument makeDocument(const RunRecord& record, const MappingResult& result) {
   MapDocument document = result.map->document();
   for (const auto& [key, value] : result.store->meta()) document.meta.emplace(key, value);
   for (const char* key : {"state", "digest", "checksum"}) document.meta.erase(key);
@@ -61,9 +61,9 @@ MapDocument documentOf(const RunRecord& record, const MappingResult& result) {
 }
 
 /// The map in figures, with all voxels in `document` as far as they fit into `max_memory`.
-MapFigures figuresOf(MapDocument& document, const MappingResult& result,
-                     std::optional<std::uint64_t> max_memory) {
-  if (result.voxels_in_memory) return figuresOf(document);
+MapFigures computeFigures(MapDocument& document, const MappingResult& result,
+                          std::optional<std::uint64_t> max_memory) {
+  if (result.voxels_in_memory) return computeFigures(document);
   MapFiguresSum sum(document.labels, result.store->options());
   result.store->forEachPart(std::min<std::size_t>(kPartBytes, max_memory.value_or(kPartBytes)),
                             [&](const SemanticMap& part) { sum.add(part); });
@@ -80,9 +80,9 @@ void printSummary(const RunRecord& record, const MapFigures& figures, const Outp
   if (pointsRejected(record) > 0)
     std::printf("rejected  %s points (reasons in run.json)\n",
                 formatCount(pointsRejected(record)).c_str());
-  if (record.kept_unlabelled > 0)
+  if (record.labels.keptUnlabelled() > 0)
     std::printf("no label  %s in the map as unlabelled\n",
-                formatCount(record.kept_unlabelled, "point").c_str());
+                formatCount(record.labels.keptUnlabelled(), "point").c_str());
   if (record.no_returns > 0)
     std::printf("no return %s hit nothing\n", formatCount(record.no_returns, "beam").c_str());
   if (const auto& cameras = record.camera_labels)
@@ -146,16 +146,15 @@ MappingResult mapOrSayHowToGoOn(const MappingRequest& request, const CheckpointR
   }
   try {
     return mapWithProgress(request, checkpoints);
-  } catch (const Interrupted& interrupted) {
-    throw Interrupted(interrupted.what() + resumeHint(checkpoints.file, folder));
   } catch (const ConfigError&) {
-    throw;
-  } catch (const OptionError&) {
+    throw;  // before there was anything to go on with
+  } catch (Error& error) {
+    error.append(resumeHint(checkpoints.file, folder));
     throw;
   } catch (const std::bad_alloc&) {
-    throw std::runtime_error("memory is used up" + resumeHint(checkpoints.file, folder));
+    throw Error("memory is used up" + resumeHint(checkpoints.file, folder));
   } catch (const std::exception& error) {
-    throw std::runtime_error(error.what() + resumeHint(checkpoints.file, folder));
+    throw Error(error.what() + resumeHint(checkpoints.file, folder));
   }
 }
 
@@ -169,7 +168,7 @@ CheckpointRequest checkpointsOf(const MapArguments& arguments, const MappingRequ
   checkpoints.meta = {{"created_by", "csom " CSOM_VERSION},
                       {"command", commandLine()},
                       {"rawlog", detail::joined(request.logs)}};
-  checkpoints.notes = notesOf(arguments);
+  checkpoints.notes = makeNotes(arguments);
   checkpoints.stop = [&signal] { return signal.received(); };
   checkpoints.memory_shortage = [] { return memoryShortage(kMemoryReserve); };
   return checkpoints;
@@ -184,7 +183,7 @@ MappingRequest resumedRequest(MapArguments& arguments) {
                                           ": no run was stopped there that could go on");
   const MapStore::State state = readState(file);
   applyNotes(state, arguments);
-  MappingRequest request = requestOf(state, file);
+  MappingRequest request = readRequest(state, file);
   request.label_cache = arguments.label_cache;  // none if that is empty
   return request;
 }
@@ -193,7 +192,7 @@ void runMap(MapArguments arguments) {
   check(arguments);
   const StopSignal signal;
   const MappingRequest request =
-      arguments.resume.empty() ? requestOf(arguments) : resumedRequest(arguments);
+      arguments.resume.empty() ? readRequest(arguments) : resumedRequest(arguments);
   const OutputFolder folder = outputFolder(arguments, request);
   StagedResults results(folder);
 
@@ -202,12 +201,12 @@ void runMap(MapArguments arguments) {
       request, checkpointsOf(arguments, request, folder, signal), arguments.output);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
 
-  RunRecord record = recordOf(request, result, elapsed.count());
-  MapDocument document = documentOf(record, result);
+  RunRecord record = makeRecord(request, result, elapsed.count());
+  MapDocument document = makeDocument(record, result);
   ReportOptions report;
   report.html = !arguments.no_html;
   report.map_picture.color_blind_safe = arguments.color_blind;
-  const MapFigures figures = figuresOf(document, result, arguments.max_memory);
+  const MapFigures figures = computeFigures(document, result, arguments.max_memory);
   if (!result.voxels_in_memory && document.map.empty()) {
     report.html = report.png = false;
     record.warnings.push_back(

@@ -80,7 +80,7 @@ std::vector<std::string> resultPrefixes(const std::vector<std::string>& command,
                                         const std::vector<std::string>& inis) {
   std::vector<std::string> prefixes(command.begin() + 1, command.end());
   for (const std::string& ini : inis)
-    for (const std::string& folder : outputFoldersOf(ini)) prefixes.push_back(folder);
+    for (const std::string& folder : listOutputFolders(ini)) prefixes.push_back(folder);
   return prefixes;
 }
 

@@ -46,7 +46,7 @@ inline void expectAllFormatsReadBack(const std::string& folder, const std::strin
   }
   exportTo(folder, map_file, "glb", folder + "/map.glb");
   EXPECT_TRUE(readGlb(folder + "/map.glb", resolution, document.labels).faces ==
-              facesOf(document.map, document.labels));
+              makeFaces(document.map, document.labels));
 }
 
 }  // namespace csom::test

@@ -194,7 +194,7 @@ TEST_F(RightOrRefusedFiles, B4_CentresThatAnExportPrintsLieInABoxMadeOfThem) {
   Options options = document.map.options();
   options.resolution = 0.1;
   options.method = Method::SCsm;
-  options.free_space = FreeSpace::None;
+  options.free_space.mode = FreeSpace::None;
   document.map = SemanticMap(options);
   Scan scan;
   scan.origin = {0.05, 0.05, 0.05};
@@ -426,7 +426,7 @@ MapDocument largeDocument(int seed) {
   MapDocument document = sampleDocument();
   Options options = document.map.options();
   options.method = Method::SCsm;
-  options.free_space = FreeSpace::None;
+  options.free_space.mode = FreeSpace::None;
   options.resolution = 0.1;
   document.map = SemanticMap(options);
   std::mt19937 random(static_cast<unsigned>(seed));

@@ -96,7 +96,7 @@ TEST(Observations2map, mapsADataSetOfMrpt) {
   const CSimpleMap frames = loadSimpleMap(frames_file);
   const MapDocument document = loadMap(folder / ("out_" + kMapSuffix));
   EXPECT_EQ(document.scans.size(), countOf(frames, CLASS_ID(mrpt::obs::CObservation2DRangeScan)));
-  EXPECT_EQ(document.map.options().free_space, FreeSpace::Raycast) << "options of the ini";
+  EXPECT_EQ(document.map.options().free_space.mode, FreeSpace::Raycast) << "options of the ini";
   EXPECT_EQ(mapDigest(document.map), digestOfDirectLoop(frames, config));
   EXPECT_EQ(infoOf(folder / ("out_" + kMapSuffix)).at("digest"), mapDigest(document.map));
 }

@@ -16,10 +16,10 @@ namespace {
 // AddressSanitizer takes ten times as long, and keeps what was freed for a while.
 #ifdef __SANITIZE_ADDRESS__
 constexpr std::size_t kMany = 1'000'000;
-constexpr std::size_t kMostBytes = 1000 * kMany;
+constexpr std::size_t kMaxBytes = 1000 * kMany;
 #else
 constexpr std::size_t kMany = 10'000'000;
-constexpr std::size_t kMostBytes = 250 * kMany;
+constexpr std::size_t kMaxBytes = 250 * kMany;
 #endif
 
 std::size_t peakBytes() {
@@ -34,9 +34,9 @@ class AbsurdScans : public testing::TestWithParam<Method> {
   AbsurdScans() {
     options.method = GetParam();
     options.resolution = 0.2;
-    options.ds_resolution = 0.1;
-    options.free_space = FreeSpace::Raycast;
-    options.max_range = 60;
+    options.scan.ds_resolution = 0.1;
+    options.free_space.mode = FreeSpace::Raycast;
+    options.scan.max_range = 60;
   }
   Options options;
 };
@@ -54,12 +54,12 @@ TEST_P(AbsurdScans, TenMillionPoints) {
   const ScanReport report = map.insert(scan);
   EXPECT_EQ(report.points, kMany);
   EXPECT_EQ(report.rejectedTotal(), 0U);
-  EXPECT_LT(peakBytes() - before, kMostBytes);
+  EXPECT_LT(peakBytes() - before, kMaxBytes);
 }
 
 TEST_P(AbsurdScans, TenMillionPointsAtOnePlace) {
   for (const double cell : {0.1, 0.0}) {
-    options.ds_resolution = cell;
+    options.scan.ds_resolution = cell;
     // Without down-sampling every one of them has its kernel.
     const std::size_t points = cell > 0 ? kMany : kMany / 10;
     Scan scan;
@@ -70,15 +70,15 @@ TEST_P(AbsurdScans, TenMillionPointsAtOnePlace) {
     const ScanReport report = map.insert(scan);
     EXPECT_EQ(report.rejectedTotal(), 0U);
     EXPECT_EQ(map.at({3.05, 2.05, 1.05}).mostLikelyClass(), 1);
-    EXPECT_LT(peakBytes() - before, kMostBytes);
+    EXPECT_LT(peakBytes() - before, kMaxBytes);
     EXPECT_LT(map.memoryBytes(), 1'000'000U);
   }
 }
 
 TEST_P(AbsurdScans, ARangeOfABillionMetres) {
-  options.max_range = 0;
+  options.scan.max_range = 0;
   for (const FreeSpace free_space : {FreeSpace::None, FreeSpace::Sampled, FreeSpace::Raycast}) {
-    options.free_space = free_space;
+    options.free_space.mode = free_space;
     SemanticMap map(options);
     Scan scan;
     for (const float far : {1e9F, -1e9F, 1e30F, std::numeric_limits<float>::max()})

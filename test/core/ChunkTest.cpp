@@ -52,7 +52,7 @@ Reference contentOf(const Chunk& chunk) {
   return content;
 }
 
-std::string recordOf(const Chunk& chunk) {
+std::string makeRecord(const Chunk& chunk) {
   return {static_cast<const char*>(chunk.record()), chunk.recordSize()};
 }
 
@@ -71,10 +71,10 @@ TEST(Chunk, SumsAreThoseOfAPlainMap) {
       const bool known = expected.lower_bound({voxel, 0}) != expected.lower_bound({voxel + 1, 0});
       ASSERT_EQ(chunk->at(voxel).size > 0, known);
     }
-    const std::string record = recordOf(*chunk);
+    const std::string record = makeRecord(*chunk);
     const ChunkRef copy = Chunk::fromRecord(record.data(), record.size(), kClasses);
-    ASSERT_EQ(recordOf(*copy), record);
-    ASSERT_EQ(recordOf(*Chunk::sum(nullptr, chunk->toIncrements())), record)
+    ASSERT_EQ(makeRecord(*copy), record);
+    ASSERT_EQ(makeRecord(*Chunk::sum(nullptr, chunk->toIncrements())), record)
         << "equal content, other bytes";
   }
 }
@@ -83,15 +83,15 @@ TEST(Chunk, AddsInPlaceOnlyWhenAloneAndComplete) {
   Random random(2);
   const auto increments = randomIncrements(random, 300);
   ChunkRef chunk = Chunk::sum(nullptr, increments);
-  const std::string once = recordOf(*chunk);
+  const std::string once = makeRecord(*chunk);
   {
     const ChunkRef shared = chunk;
     EXPECT_FALSE(chunk.addInPlace(increments));
-    EXPECT_EQ(recordOf(*chunk), once);
+    EXPECT_EQ(makeRecord(*chunk), once);
   }
   EXPECT_TRUE(chunk.addInPlace(increments));
   const ChunkRef base = Chunk::sum(nullptr, increments);
-  EXPECT_EQ(recordOf(*chunk), recordOf(*Chunk::sum(base.get(), increments)));
+  EXPECT_EQ(makeRecord(*chunk), makeRecord(*Chunk::sum(base.get(), increments)));
   EXPECT_FALSE(Chunk::sum(nullptr, {{5, 1, 10}}).addInPlace({{5, 2, 10}}));
 }
 
@@ -104,13 +104,13 @@ TEST(Chunk, HoldsEveryClassOfEveryVoxel) {
   const ChunkRef chunk = Chunk::sum(nullptr, all);
   EXPECT_EQ(chunk->knownVoxels(), kVoxelsPerChunk);
   EXPECT_EQ(chunk->at(511).counts[255], 511U * 256 + 256);
-  const std::string record = recordOf(*chunk);
-  EXPECT_EQ(recordOf(*Chunk::fromRecord(record.data(), record.size(), kMaxClasses)), record);
+  const std::string record = makeRecord(*chunk);
+  EXPECT_EQ(makeRecord(*Chunk::fromRecord(record.data(), record.size(), kMaxClasses)), record);
 }
 
 TEST(Chunk, RefusesRecordsThatAreNotValid) {
   Random random(3);
-  const std::string good = recordOf(*Chunk::sum(nullptr, randomIncrements(random, 60)));
+  const std::string good = makeRecord(*Chunk::sum(nullptr, randomIncrements(random, 60)));
   ASSERT_NO_THROW(Chunk::fromRecord(good.data(), good.size(), kClasses));
   EXPECT_THROW(Chunk::fromRecord(good.data(), good.size(), 2), std::runtime_error)
       << "classes beyond K";
@@ -128,7 +128,7 @@ TEST(Chunk, RefusesRecordsThatAreNotValid) {
       try {
         // What is accepted must be a record that its own content builds again: canonical.
         const ChunkRef chunk = Chunk::fromRecord(bad.data(), bad.size(), kClasses);
-        ASSERT_EQ(recordOf(*Chunk::sum(nullptr, chunk->toIncrements())), bad);
+        ASSERT_EQ(makeRecord(*Chunk::sum(nullptr, chunk->toIncrements())), bad);
       } catch (const std::runtime_error&) {
         ++refused;
       }
@@ -166,10 +166,10 @@ TEST(ChunkStore, CopiesShareUntilWritten) {
   original.add({{{0, 0, 0}, increments}, {{-1, 2, 3}, increments}}, 1);
   ChunkStore copy = original;
   EXPECT_EQ(copy.find({0, 0, 0}), original.find({0, 0, 0}));
-  const std::string before = recordOf(*original.find({0, 0, 0}));
+  const std::string before = makeRecord(*original.find({0, 0, 0}));
   copy.add({{{0, 0, 0}, increments}}, 1);
   EXPECT_NE(copy.find({0, 0, 0}), original.find({0, 0, 0}));
-  EXPECT_EQ(recordOf(*original.find({0, 0, 0})), before);
+  EXPECT_EQ(makeRecord(*original.find({0, 0, 0})), before);
   EXPECT_EQ(copy.find({-1, 2, 3}), original.find({-1, 2, 3})) << "untouched chunks stay shared";
   original.clear();
   EXPECT_EQ(copy.chunkCount(), 2U);

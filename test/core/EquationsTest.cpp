@@ -33,9 +33,9 @@ TEST(ContextEntropy, FilledBlocksFollowTheRule) {
   EXPECT_EQ(filled[1].index, (BlockIndex{0, 0, 0}));
   EXPECT_EQ(filled[1].observed, -1);
   EXPECT_EQ(filled[2].observed, 1);
-  options.rvfm = false;
+  options.see_csom.rvfm = false;
   EXPECT_EQ(filledBlocks(observed, options).size(), 13U);
-  options.context_neighbours = 26;
+  options.see_csom.context_neighbours = 26;
   EXPECT_EQ(filledBlocks(observed, options).size(), 45U);
 }
 
@@ -55,8 +55,8 @@ TEST(ClassEntropy, Limits) {
   EXPECT_EQ(classEntropy({0, 4, 0}), 0.0F);
   EXPECT_EQ(classEntropy({1, 1}), 1.0F);  // 1/2 + 1/2, two classes in all
   Options options;
-  options.aklm = false;
-  options.kernel_length = 0.7;
+  options.kernel.aklm = false;
+  options.kernel.length = 0.7;
   EXPECT_FLOAT_EQ(kernelLength(1.0F, options), 0.7F);
 }
 

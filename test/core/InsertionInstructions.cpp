@@ -33,7 +33,7 @@ int main(int argc, char** argv) try {
   csom::Options options;
   options.number_of_classes = 20;
   options.resolution = 0.3;
-  options.ds_resolution = 0.2;
+  options.scan.ds_resolution = 0.2;
   for (int i = 1; i < argc; i += 2) {
     if (i + 1 == argc || !csom::setOption(options, argv[i], argv[i + 1])) {
       std::fprintf(stderr, "%s: no option of a map, or no value for it\n", argv[i]);

@@ -43,7 +43,7 @@ class NaiveOracle {
     }
     const std::vector<Point> hits = downSample(raw, scan.isSoft());
     std::vector<Point> training = hits;
-    if (o_.free_space == FreeSpace::Sampled) {
+    if (o_.free_space.mode == FreeSpace::Sampled) {
       for (const Point& p : downSample(freeSamples(hits, scan.origin), scan.isSoft()))
         training.push_back(p);
     }
@@ -54,7 +54,7 @@ class NaiveOracle {
     } else {
       infer(training);
     }
-    if (o_.free_space == FreeSpace::Raycast) castRays(raw, hits, scan.origin);
+    if (o_.free_space.mode == FreeSpace::Raycast) castRays(raw, hits, scan.origin);
     return mass_;
   }
 
@@ -80,9 +80,9 @@ class NaiveOracle {
   }
 
   std::vector<Point> downSample(const std::vector<Point>& in, bool soft) const {
-    if (o_.ds_resolution == 0) return in;
+    if (o_.scan.ds_resolution == 0) return in;
     std::map<Cell, std::vector<Point>> cells;
-    for (const Point& p : in) cells[cellOf(p.xyz, o_.ds_resolution)].push_back(p);
+    for (const Point& p : in) cells[cellOf(p.xyz, o_.scan.ds_resolution)].push_back(p);
     std::vector<Point> out;
     for (const auto& [cell, members] : cells) {
       Point mean{Eigen::Vector3d::Zero(), Vector(classes_, 0.0)};
@@ -117,8 +117,8 @@ class NaiveOracle {
     for (const Point& hit : hits) {
       const Eigen::Vector3d beam = hit.xyz - origin;
       const double range = beam.norm();
-      for (int n = 1; range - n * o_.free_resolution > 0; ++n)
-        out.push_back({origin + beam / range * (range - n * o_.free_resolution), free});
+      for (int n = 1; range - n * o_.free_space.resolution > 0; ++n)
+        out.push_back({origin + beam / range * (range - n * o_.free_space.resolution), free});
     }
     return out;
   }
@@ -126,9 +126,9 @@ class NaiveOracle {
   double kernel(double distance, double length) const {
     const double t = distance / length;
     if (t >= 1) return 0;
-    if (o_.kernel == Kernel::Linear) return o_.kernel_scale * (1 - t);
+    if (o_.kernel.shape == Kernel::Linear) return o_.kernel.scale * (1 - t);
     const double turn = 2 * M_PI * t;
-    return o_.kernel_scale * ((2 + std::cos(turn)) / 3 * (1 - t) + std::sin(turn) / (2 * M_PI));
+    return o_.kernel.scale * ((2 + std::cos(turn)) / 3 * (1 - t) + std::sin(turn) / (2 * M_PI));
   }
 
   double classEntropy(const std::vector<const Point*>& inside) const {
@@ -176,7 +176,7 @@ class NaiveOracle {
       const auto own = observed.find(blockOf(voxel));
       const double entropy =
           classEntropy(own == observed.end() ? std::vector<const Point*>{} : own->second);
-      return kernelLength(entropy, o_.aklm) / o_.resolution;
+      return kernelLength(entropy, o_.kernel.aklm) / o_.resolution;
     });
     for (const auto& [voxel, mass] : mass_)
       if (surfaces.isUndecided(voxel)) undecided_.insert(voxel);
@@ -186,7 +186,9 @@ class NaiveOracle {
     const int side = 1 << (o_.block_depth - 1);
     const double s = side * o_.resolution;
     const PointsByBlock observed = byBlock(training);
-    const int kinds = o_.context_neighbours == 6 ? 1 : o_.context_neighbours == 18 ? 2 : 3;
+    const int kinds = o_.see_csom.context_neighbours == 6    ? 1
+                      : o_.see_csom.context_neighbours == 18 ? 2
+                                                             : 3;
     std::set<Cell> candidates;
     const auto forExtended = [&](const Cell& b, auto&& visit) {
       for (int z = -1; z <= 1; ++z)
@@ -200,23 +202,23 @@ class NaiveOracle {
       forExtended(b, [&](const Cell& c, int) { candidates.insert(c); });
 
     for (const Cell& b : candidates) {
-      if (o_.method == Method::SeeCsom && o_.rvfm) {
+      if (o_.method == Method::SeeCsom && o_.see_csom.rvfm) {
         double e1 = 0;
         double e0 = 0;
         forExtended(b, [&](const Cell& x, int kind) {
-          const double psi =
-              kind == 0 ? o_.context_weight_self
-                        : o_.context_weight_neighbour * std::exp(-kind * s * s / (2 * s * s));
+          const double psi = kind == 0 ? o_.see_csom.context_weight_self
+                                       : o_.see_csom.context_weight_neighbour *
+                                             std::exp(-kind * s * s / (2 * s * s));
           (observed.count(x) > 0 ? e1 : e0) += psi;
         });
-        if (std::exp(e1) / (std::exp(e1) + std::exp(e0)) < o_.context_threshold) continue;
+        if (std::exp(e1) / (std::exp(e1) + std::exp(e0)) < o_.see_csom.context_threshold) continue;
       }
       const auto own = observed.find(b);
       const double entropy =
           classEntropy(own == observed.end() ? std::vector<const Point*>{} : own->second);
-      const double length = kernelLength(entropy, o_.method == Method::SeeCsom && o_.aklm);
+      const double length = kernelLength(entropy, o_.method == Method::SeeCsom && o_.kernel.aklm);
       std::vector<const Point*> neighbourhood;
-      if (o_.neighbourhood == Neighbourhood::Radius) {
+      if (o_.see_csom.neighbourhood == Neighbourhood::Radius) {
         for (const Point& p : training) neighbourhood.push_back(&p);
       } else {
         forExtended(b, [&](const Cell& x, int kind) {
@@ -267,7 +269,7 @@ class NaiveOracle {
     Vector free(classes_, 0.0);
     free[0] = 1;
     for (const Cell& voxel : crossed) {
-      if (hit_voxels.count(voxel) == 0) add(voxel, free, o_.free_weight);
+      if (hit_voxels.count(voxel) == 0) add(voxel, free, o_.free_space.weight);
     }
   }
 

@@ -79,8 +79,8 @@ class NaiveSurfaceOracle {
       s.length = o_.kernelLengthMin() / o_.resolution;
       return s;
     }
-    const double cell = std::clamp(o_.ds_resolution / o_.resolution, 1.0, 16.0);
-    const double widest = std::min(o_.surface_gap * cell, 16.0);
+    const double cell = std::clamp(o_.scan.ds_resolution / o_.resolution, 1.0, 16.0);
+    const double widest = std::min(o_.surface.gap * cell, 16.0);
     std::vector<std::pair<double, std::size_t>> near;
     for (std::size_t q = 0; q < points_.size(); ++q) {
       const double distance = (points_[q].xyz - points_[p].xyz).norm();
@@ -90,7 +90,7 @@ class NaiveSurfaceOracle {
     }
     std::sort(near.begin(), near.end());
     while (!near.empty() && near.back().first >= 1.5 * widest) near.pop_back();
-    const auto wanted = static_cast<std::size_t>(o_.surface_neighbours);
+    const auto wanted = static_cast<std::size_t>(o_.surface.neighbours);
     if (near.size() > wanted) {
       s.undecided = s.undecided || close(near[wanted].first, near[wanted - 1].first, 1e-4);
       near.resize(wanted);
@@ -120,13 +120,13 @@ class NaiveSurfaceOracle {
     const Eigen::Vector3d l = solver.eigenvalues();
     const double noise = 1e-4 * l[2];
     s.undecided = s.undecided || close(l[0], 0.5 * l[1], noise);
-    if (!o_.surface_planes || l[0] >= 0.5 * l[1]) {
+    if (!o_.surface.planes || l[0] >= 0.5 * l[1]) {
       setLength(spacingTo(3), cell, cell, s);
       return s;
     }
     s.plane = true;
     s.normal = solver.eigenvectors().col(0);
-    s.half_thickness = o_.surface_thickness * s.normal.lpNorm<1>() / 2;
+    s.half_thickness = o_.surface.thickness * s.normal.lpNorm<1>() / 2;
     const Eigen::Vector3d& at = points_[p].xyz;
     const Eigen::Vector3d center = at.array().floor() + 0.5;
     if (s.normal.dot(center - at) < 0) s.normal = -s.normal;
@@ -142,7 +142,7 @@ class NaiveSurfaceOracle {
   void setLength(double spacing, double limit, double cell, Surface& s) const {
     s.density = std::min(1.0, std::pow(1.3 * cell / spacing, 2));
     s.length = std::min(
-        24.0, o_.surface_reach * std::max(1.1, std::min(spacing, limit)) * (s.plane ? 1.0 : 0.85));
+        24.0, o_.surface.reach * std::max(1.1, std::min(spacing, limit)) * (s.plane ? 1.0 : 0.85));
   }
 
   std::set<Cell> cellsInReach() const {
@@ -185,7 +185,7 @@ class NaiveSurfaceOracle {
         undecided = undecided || close(off, s.own_side, 5e-5) ||
                     close(off, -s.half_thickness, 1e-3) ||
                     close(std::abs(off), s.half_thickness + 0.5, 1e-3);
-      const double hit = d.lpNorm<Eigen::Infinity>() < 0.5 ? o_.surface_hit_weight : 0;
+      const double hit = d.lpNorm<Eigen::Infinity>() < 0.5 ? o_.surface.hit_weight : 0;
       undecided = undecided || close(d.lpNorm<Eigen::Infinity>(), 0.5, 1e-4);
       if (!s.plane || (-s.half_thickness <= off && off <= s.own_side)) votes += mass;
       if (!s.plane || std::abs(off) <= s.half_thickness + 0.5) {
@@ -196,20 +196,20 @@ class NaiveSurfaceOracle {
       support += hit;
       dense += hit * s.density;
       const double t = d.norm() / std::max(length, s.reach());
-      const double of_class = o_.kernel == Kernel::Linear ? std::max(0.0, 1 - t) : kernel(t);
+      const double of_class = o_.kernel.shape == Kernel::Linear ? std::max(0.0, 1 - t) : kernel(t);
       for (std::size_t k = 1; k < classes.size(); ++k) classes[k] += points_[p].c[k] * of_class;
     }
     if (undecided) undecided_.insert(v);
-    const double tau = o_.surface_support;
+    const double tau = o_.surface.support;
     const double missing = std::max(0.0, 2 * tau - support);
     const double weight = (0.3 + 0.7 * (1 - missing / (2 * tau))) * std::min(1.0, support / 0.3);
     const double density = support > 0 ? dense / support : 0;
     double all = 0;
     for (const double m : classes) all += m;
-    for (double& m : classes) m *= all > 0 ? o_.kernel_scale * weight * votes / all : 0;
-    classes[0] = o_.kernel_scale *
-                 (weight * o_.counter_evidence * (support - votes + density * missing) +
-                  std::max(0.0, 1 - support / tau) * std::min(free, o_.surface_free_limit));
+    for (double& m : classes) m *= all > 0 ? o_.kernel.scale * weight * votes / all : 0;
+    classes[0] = o_.kernel.scale *
+                 (weight * o_.surface.counter_evidence * (support - votes + density * missing) +
+                  std::max(0.0, 1 - support / tau) * std::min(free, o_.surface.free_limit));
     return classes;
   }
 

@@ -24,8 +24,8 @@ std::string messageOf(const std::string& key, const std::string& text) {
 
 std::map<std::string, std::string> textsOf(const Options& options) {
   std::map<std::string, std::string> texts;
-  visitOptions(options, [&](const char* name, const auto& value, const char*, const char*) {
-    texts[name] = toString(value);
+  visitOptions(options, [&](const OptionInfo& option, const auto& value) {
+    texts[option.key] = toString(value);
   });
   return texts;
 }
@@ -36,11 +36,11 @@ TEST(Options, EveryFieldSurvivesAsText) {
   changed.resolution = 0.1 + 0.2;  // 17 digits
   changed.block_depth = 3;
   changed.method = Method::SBki;
-  changed.rvfm = changed.aklm = false;
-  changed.kernel = Kernel::Linear;
-  changed.neighbourhood = Neighbourhood::ExtendedBlock;
-  changed.ds_resolution = 1.0 / 3;
-  changed.free_space = FreeSpace::Raycast;
+  changed.see_csom.rvfm = changed.kernel.aklm = false;
+  changed.kernel.shape = Kernel::Linear;
+  changed.see_csom.neighbourhood = Neighbourhood::ExtendedBlock;
+  changed.scan.ds_resolution = 1.0 / 3;
+  changed.free_space.mode = FreeSpace::Raycast;
   Options read;
   for (const auto& [key, text] : textsOf(changed)) ASSERT_TRUE(setOption(read, key, text)) << key;
   EXPECT_EQ(textsOf(read), textsOf(changed));
@@ -54,7 +54,7 @@ TEST(Options, DefaultsAreValidAndDerivedLengthsFollowTheResolution) {
   options.resolution = 0.3;
   EXPECT_DOUBLE_EQ(options.kernelLengthMin(), 0.9);
   EXPECT_DOUBLE_EQ(options.kernelLengthMax(), 1.5);
-  options.kernel_length_max = 2;
+  options.kernel.length_max = 2;
   EXPECT_DOUBLE_EQ(options.kernelLengthMax(), 2);
 }
 

@@ -44,7 +44,7 @@ TEST_P(Oracle, AgreesWithinOneQuantum) {
       for (int k = 0; k < options.number_of_classes; ++k) {
         const double mass = found->second[static_cast<std::size_t>(k)];
         // Two sources may fill one voxel (kernels and crossing beams), each rounded once.
-        const double roundings = options.free_space == FreeSpace::Raycast && k == 0 ? 2 : 1;
+        const double roundings = options.free_space.mode == FreeSpace::Raycast && k == 0 ? 2 : 1;
         ASSERT_NEAR(voxel.evidence(static_cast<ClassId>(k)), mass,
                     roundings * kCountQuantum + 1e-5 * mass + of_voxel * sum)
             << "voxel " << v.x << ' ' << v.y << ' ' << v.z << " class " << k;
@@ -121,7 +121,7 @@ TEST(OracleDensePoint, HitsAtOnePlaceAreTheirOwnNeighbours) {
   SemanticMap map(options);
   map.insert(scan);
   // The kernel of each is 1 at the centre of the voxel, and it lies in the voxel.
-  EXPECT_NEAR(map.voxel({0, 0, 0}).evidence(1), 1e4 * (1 + options.surface_hit_weight), 10.0);
+  EXPECT_NEAR(map.voxel({0, 0, 0}).evidence(1), 1e4 * (1 + options.surface.hit_weight), 10.0);
   EXPECT_EQ(map.voxel({0, 0, 0}).evidence(0), 0);
 }
 

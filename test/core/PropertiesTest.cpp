@@ -67,8 +67,8 @@ TEST_P(Properties, NumberOfThreadsDoesNotMatterForAWideScan) {
     Options options;
     options.method = GetParam();
     options.number_of_classes = 5;
-    options.free_space = free_space;
-    options.free_resolution = 2;
+    options.free_space.mode = free_space;
+    options.free_space.resolution = 2;
     Scan scan;
     for (int i = 0; i < 4000; ++i) {
       scan.points.push_back(
@@ -109,7 +109,7 @@ TEST_P(Properties, ShiftByWholeBlocksMovesTheMap) {
   // Numbers that binary fractions hold exactly: the shifted scan is the same scan, bit for bit.
   forRandomCases(1, 80, [this](RandomCase& random, Options options, std::vector<Scan> scans) {
     options.resolution = 0.25;
-    options.ds_resolution = random.oneOf<double>({0, 0.125, 0.25});
+    options.scan.ds_resolution = random.oneOf<double>({0, 0.125, 0.25});
     Scan scan = scans[0];
     scan.origin = (Eigen::Vector3d(random.real(-4, 4), random.real(-4, 4), random.real(-4, 4)) * 64)
                       .array()
@@ -137,7 +137,7 @@ TEST_P(Properties, ShiftByWholeBlocksMovesTheMap) {
 TEST_P(Properties, QuarterTurnTurnsTheMap) {
   // x' = −y, y' = x: voxel (i, j, k) becomes (−j−1, i, k). Sums run in another order: one quantum.
   forRandomCases(1, 80, [this](RandomCase& random, Options options, std::vector<Scan> scans) {
-    options.ds_resolution = 0;
+    options.scan.ds_resolution = 0;
     Scan scan = scans[0];
     scan.origin = {random.real(-4, 4), random.real(-4, 4), random.real(-4, 4)};
     Scan turned = scan;
@@ -167,14 +167,14 @@ TEST_P(Properties, QuarterTurnTurnsTheMap) {
 
 /// Without down-sampling, a hit's surface ends nearer than this [m].
 double longestSurface(const Options& options) {
-  const double spacing = std::max(1.1, options.surface_gap);
+  const double spacing = std::max(1.1, options.surface.gap);
   return options.resolution *
-         (options.surface_reach * spacing + options.surface_thickness * std::sqrt(3.0) / 2);
+         (options.surface.reach * spacing + options.surface.thickness * std::sqrt(3.0) / 2);
 }
 
 TEST_P(Properties, ProbabilitiesSumToOneAndOccupiedVoxelsHaveAPointNearby) {
   forRandomCases(1, 60, [](RandomCase&, Options options, const std::vector<Scan>& scans) {
-    options.ds_resolution = 0;
+    options.scan.ds_resolution = 0;
     const SemanticMap map = mapOf(options, scans);
     const double reach = options.method == Method::SCsm          ? options.resolution
                          : options.method == Method::SurfaceCsom ? longestSurface(options)
@@ -208,11 +208,11 @@ TEST(RedundantVoxelFilter, FillsASubset) {
   for (int seed = 0; seed < kRandomCases; ++seed) {
     RandomCase random(static_cast<std::uint64_t>(seed) + 5000);
     Options on = random.options(Method::SeeCsom);
-    on.rvfm = true;
+    on.see_csom.rvfm = true;
     // A crossed voxel is known with or without the filter: leave beams out of the comparison.
-    if (on.free_space == FreeSpace::Raycast) on.free_space = FreeSpace::None;
+    if (on.free_space.mode == FreeSpace::Raycast) on.free_space.mode = FreeSpace::None;
     Options off = on;
-    off.rvfm = false;
+    off.see_csom.rvfm = false;
     const Scan scan = random.scan(on, 100);
     SemanticMap with(on);
     SemanticMap without(off);

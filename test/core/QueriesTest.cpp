@@ -15,7 +15,7 @@ SemanticMap randomMap(std::uint64_t seed) {
   Options options;
   options.number_of_classes = 5;
   options.resolution = 0.25;
-  options.free_space = FreeSpace::Sampled;
+  options.free_space.mode = FreeSpace::Sampled;
   SemanticMap map(options);
   for (int i = 0; i < 3; ++i) {
     Scan scan = random.scan(options, 400);

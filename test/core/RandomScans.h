@@ -35,22 +35,23 @@ class RandomCase {
     o.number_of_classes = integer(2, 12);
     o.resolution = oneOf<double>({0.1, 0.2, 0.25, 0.3});
     o.block_depth = oneOf<int>({1, 2, 2, 2, 3, 4});
-    o.rvfm = integer(0, 3) > 0;
-    o.aklm = integer(0, 3) > 0;
-    o.kernel = oneOf<Kernel>({Kernel::Sparse, Kernel::Sparse, Kernel::Linear});
-    o.neighbourhood = oneOf<Neighbourhood>({Neighbourhood::Radius, Neighbourhood::ExtendedBlock});
-    o.ds_resolution = oneOf<double>({0, 0.1, 0.17});
-    o.context_neighbours = oneOf<int>({6, 18, 26});
+    o.see_csom.rvfm = integer(0, 3) > 0;
+    o.kernel.aklm = integer(0, 3) > 0;
+    o.kernel.shape = oneOf<Kernel>({Kernel::Sparse, Kernel::Sparse, Kernel::Linear});
+    o.see_csom.neighbourhood =
+        oneOf<Neighbourhood>({Neighbourhood::Radius, Neighbourhood::ExtendedBlock});
+    o.scan.ds_resolution = oneOf<double>({0, 0.1, 0.17});
+    o.see_csom.context_neighbours = oneOf<int>({6, 18, 26});
     // With more neighbours a lone block's context entropy is smaller by orders of magnitude.
-    o.context_threshold =
-        o.context_neighbours == 6 ? real(0.0, 0.125) : std::pow(10.0, real(-6, -2));
-    o.kernel_scale = oneOf<double>({1.0, 0.1, 2.5});
-    o.free_space = oneOf<FreeSpace>({FreeSpace::None, FreeSpace::Sampled, FreeSpace::Raycast});
-    o.free_resolution = real(0.2, 0.6);
-    o.free_weight = real(0.05, 1.0);
+    o.see_csom.context_threshold =
+        o.see_csom.context_neighbours == 6 ? real(0.0, 0.125) : std::pow(10.0, real(-6, -2));
+    o.kernel.scale = oneOf<double>({1.0, 0.1, 2.5});
+    o.free_space.mode = oneOf<FreeSpace>({FreeSpace::None, FreeSpace::Sampled, FreeSpace::Raycast});
+    o.free_space.resolution = real(0.2, 0.6);
+    o.free_space.weight = real(0.05, 1.0);
     if (method == Method::SurfaceCsom) randomizeSurfaces(o);
-    if (integer(0, 2) == 0) o.kernel_length = o.resolution * real(0.5, 6);
-    if (integer(0, 2) == 0) o.kernel_length_min = o.resolution * real(0.5, 4);
+    if (integer(0, 2) == 0) o.kernel.length = o.resolution * real(0.5, 6);
+    if (integer(0, 2) == 0) o.kernel.length_min = o.resolution * real(0.5, 4);
     return o;
   }
 
@@ -82,15 +83,15 @@ class RandomCase {
 
  private:
   void randomizeSurfaces(Options& o) {
-    o.surface_planes = integer(0, 3) > 0;
-    o.surface_neighbours = integer(3, 16);
-    o.surface_reach = real(0.8, 2.2);
-    o.surface_gap = real(1, 6);
-    o.surface_thickness = real(0.6, 1.2);
-    o.surface_support = real(0.2, 1);
-    o.surface_hit_weight = real(0, 1);
-    o.surface_free_limit = real(0.1, 2);
-    o.counter_evidence = real(0, 1.5);
+    o.surface.planes = integer(0, 3) > 0;
+    o.surface.neighbours = integer(3, 16);
+    o.surface.reach = real(0.8, 2.2);
+    o.surface.gap = real(1, 6);
+    o.surface.thickness = real(0.6, 1.2);
+    o.surface.support = real(0.2, 1);
+    o.surface.hit_weight = real(0, 1);
+    o.surface.free_limit = real(0.1, 2);
+    o.surface.counter_evidence = real(0, 1.5);
   }
   void addScores(Scan& s, int classes) {
     std::vector<double> raw(static_cast<std::size_t>(classes));

@@ -24,8 +24,8 @@ TEST(ScanPreparation, EveryReasonIsCounted) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   constexpr float inf = std::numeric_limits<float>::infinity();
   Options options = smallOptions();
-  options.min_range = 1;
-  options.max_range = 1e6;
+  options.scan.min_range = 1;
+  options.scan.max_range = 1e6;
   Scan scan;
   scan.points = {{2, 0, 0},    {nan, 0, 0},  {0, inf, 0},  {0, 0, -inf},
                  {0.5F, 0, 0}, {9e5F, 0, 0}, {2e6F, 0, 0}, {3, 0, 0}};
@@ -97,7 +97,7 @@ TEST(ScanPreparation, SizesThatDoNotMatchThrow) {
 
 TEST(ScanPreparation, DownSamplingTakesCentroidAndMajority) {
   Options options = smallOptions();
-  options.ds_resolution = 1.0;
+  options.scan.ds_resolution = 1.0;
   options.resolution = 4.0;
   Scan scan;
   scan.points = {{0.2F, 0.2F, 0.2F},
@@ -120,8 +120,8 @@ TEST(ScanPreparation, DownSamplingTakesCentroidAndMajority) {
 
 TEST(ScanPreparation, FreeSamplesEndOneStepBeforeTheHit) {
   Options options = smallOptions();
-  options.free_space = FreeSpace::Sampled;
-  options.free_resolution = 0.5;
+  options.free_space.mode = FreeSpace::Sampled;
+  options.free_space.resolution = 0.5;
   options.block_depth = 1;
   Scan scan;
   scan.origin = {0, 0.25, 0.25};
@@ -141,8 +141,8 @@ TEST(ScanPreparation, FreeSamplesEndOneStepBeforeTheHit) {
 TEST(ScanPreparation, StrayPointsFarAwayCostNoFreeSpace) {
   for (const FreeSpace kind : {FreeSpace::Sampled, FreeSpace::Raycast}) {
     Options options = smallOptions();
-    options.free_space = kind;
-    options.free_resolution = 0.5;
+    options.free_space.mode = kind;
+    options.free_space.resolution = 0.5;
     Scan scan;
     scan.points = {{90000, 0, 0}, {4000, 0, 0}};  // 180,000 and 8,000 steps
     scan.labels = {1, 1};
@@ -155,8 +155,8 @@ TEST(ScanPreparation, StrayPointsFarAwayCostNoFreeSpace) {
 
 TEST(ScanPreparation, MoreFreeSamplesThanMemoryAreRefused) {
   Options options = smallOptions();
-  options.free_space = FreeSpace::Sampled;
-  options.free_resolution = 0.5;
+  options.free_space.mode = FreeSpace::Sampled;
+  options.free_space.resolution = 0.5;
   Scan scan;
   scan.points.assign(20000, {4000, 0, 0});
   scan.labels.assign(20000, 1);
@@ -190,7 +190,7 @@ TEST(ScanPreparation, AScanMayReachToItsLimitOnEveryAxis) {
 TEST(ScanPreparation, LargeScansAreGroupedLikeSmallOnes) {
   // 20,000 points take the radix sort, a handful std::stable_sort: the cells must be the same.
   Options options = smallOptions();
-  options.ds_resolution = 0.25;
+  options.scan.ds_resolution = 0.25;
   Scan scan;
   std::uint32_t state = 1;
   const auto next = [&state] {

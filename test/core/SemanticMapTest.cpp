@@ -30,7 +30,7 @@ Options cornerOptions() {
   Options options;
   options.number_of_classes = 3;
   options.resolution = 0.2;
-  options.ds_resolution = 0.1;
+  options.scan.ds_resolution = 0.1;
   return options;
 }
 
@@ -58,8 +58,8 @@ TEST(SemanticMap, KnowsFloorAndWall) {
 TEST(SemanticMap, FreeSpaceOfBothKindsLiesBetweenSensorAndSurface) {
   for (const FreeSpace kind : {FreeSpace::Sampled, FreeSpace::Raycast}) {
     Options options = cornerOptions();
-    options.free_space = kind;
-    options.free_resolution = 0.3;
+    options.free_space.mode = kind;
+    options.free_space.resolution = 0.3;
     SemanticMap map(options);
     map.insert(corner());
     EXPECT_EQ(map.at({2, 0, 0.95}).state(), VoxelState::Free) << toString(kind);
@@ -91,7 +91,7 @@ TEST(SemanticMap, AFloorOnTheBorderOfVoxelsIsNotLost) {
 TEST(SemanticMap, AScanThatFillsNothingLeavesTheMapEmpty) {
   Options options = cornerOptions();
   options.method = Method::SeeCsom;
-  options.context_threshold = 1;  // no block reaches it
+  options.see_csom.context_threshold = 1;  // no block reaches it
   SemanticMap map(options);
   const ScanReport report = map.insert(corner());
   EXPECT_GT(report.blocks_observed, 0U);
@@ -133,7 +133,7 @@ TEST(SemanticMap, RecordsMakeTheSameMapAgain) {
 
 TEST(SemanticMap, BlocksAtTheEndOfTheIndexRangeAreSafe) {
   Options options = cornerOptions();
-  options.ds_resolution = 0;
+  options.scan.ds_resolution = 0;
   SemanticMap map(options);
   Scan scan;
   const double end = options.resolution * kMaxVoxelIndex;

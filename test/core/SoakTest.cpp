@@ -58,7 +58,7 @@ TEST_P(Soak, NothingGrowsOnceTheMapIsComplete) {
   options.number_of_classes = 4;
   options.resolution = 0.4;
   options.method = GetParam();
-  options.free_space = FreeSpace::Raycast;
+  options.free_space.mode = FreeSpace::Raycast;
   const int laps = lapsWanted();
   ASSERT_GE(laps, 20);
   std::vector<Scan> scans;

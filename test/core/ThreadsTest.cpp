@@ -24,7 +24,7 @@ Options someOptions() {
   Options options;
   options.number_of_classes = 6;
   options.resolution = 0.25;
-  options.free_space = FreeSpace::Raycast;
+  options.free_space.mode = FreeSpace::Raycast;
   return options;
 }
 
@@ -120,8 +120,8 @@ TEST_P(ThreadsOfAnInsertion, DoNotMeet) {
   for (const FreeSpace free_space : {FreeSpace::None, FreeSpace::Sampled, FreeSpace::Raycast}) {
     Options options = someOptions();
     options.method = GetParam();
-    options.free_space = free_space;
-    options.ds_resolution = 0.1;
+    options.free_space.mode = free_space;
+    options.scan.ds_resolution = 0.1;
     SemanticMap one(options);
     options.threads = kThreads;
     SemanticMap many(options);

@@ -20,7 +20,7 @@ using namespace test;
 class NaiveAkiMap {
  public:
   NaiveAkiMap(const AkiMapParameters& parameters, const Options& input)
-      : p_(parameters), r_(input.resolution), free_resolution_(input.free_resolution) {}
+      : p_(parameters), r_(input.resolution), free_resolution_(input.free_space.resolution) {}
 
   void insert(const Scan& scan) {
     std::vector<Sample> samples;

@@ -18,8 +18,8 @@ inline Options baselineInput(FreeSpace free_space) {
   Options input;
   input.number_of_classes = 5;
   input.resolution = 0.1;
-  input.free_space = free_space;
-  input.free_resolution = 0.3;
+  input.free_space.mode = free_space;
+  input.free_space.resolution = 0.3;
   return input;
 }
 

@@ -53,7 +53,7 @@ TEST(BgkOctoMapMapper, EqualsTheSumOverAllTrainingPoints) {
     forEachCenter(1.5, [&](const Eigen::Vector3d& center) {
       NaiveCounts counts;
       for (const Scan& scan : scans)
-        counts.add(scan, center, parameters.kernel_length, input.free_resolution);
+        counts.add(scan, center, parameters.kernel_length, input.free_space.resolution);
       const VoxelEstimate voxel = mapper.at(center);
       expectPlainEstimate(voxel);
       const double mass = counts.occupied + counts.free;
@@ -110,7 +110,7 @@ TEST(BgkOctoMapMapper, DownSamplesItsInput) {
   Options input = baselineInput(FreeSpace::None);
   BgkOctoMapParameters parameters;
   parameters.prior = 1;
-  input.ds_resolution = 0.1;
+  input.scan.ds_resolution = 0.1;
   BgkOctoMapMapper mapper(input, parameters);
   Scan scan = scanOf({0.04F, 0.05F, 0.05F});
   scan.points.push_back({0.06F, 0.05F, 0.05F});

@@ -101,7 +101,7 @@ TEST(GpOctoMapMapper, EqualsTheDenseSolution) {
     NaiveGpOctoMap naive(parameters, input.resolution);
     for (const std::uint64_t seed : {1, 2}) {
       mapper.insert(randomScan(seed, 30));
-      naive.insert(randomScan(seed, 30), input.free_resolution);
+      naive.insert(randomScan(seed, 30), input.free_space.resolution);
     }
     int known = 0;
     forEachCenter(1.5, [&](const Eigen::Vector3d& center) {
@@ -125,7 +125,7 @@ TEST(GpOctoMapMapper, ThresholdsTheVariance) {
   GpOctoMapMapper mapper(input, parameters);
   NaiveGpOctoMap naive(parameters, input.resolution);
   mapper.insert(randomScan(5, 30));
-  naive.insert(randomScan(5, 30), input.free_resolution);
+  naive.insert(randomScan(5, 30), input.free_space.resolution);
   int known = 0;
   int unknown = 0;
   forEachCenter(1.5, [&](const Eigen::Vector3d& center) {

@@ -128,7 +128,7 @@ inline MeshFaces readGlb(const std::string& file, double resolution, const Label
 }
 
 /// Those that the mesh of a map must have.
-inline Faces facesOf(const SemanticMap& map, const LabelSet& labels) {
+inline Faces makeFaces(const SemanticMap& map, const LabelSet& labels) {
   Faces faces;
   map.forEachVoxel([&](const VoxelIndex& v, const DirichletVoxel& voxel) {
     if (voxel.state() != VoxelState::Occupied) return;

@@ -26,7 +26,7 @@ TEST(GltfFile, HasExactlyTheFacesOfTheSurface) {
   const SemanticMap map = sampleMap();
   const std::size_t triangles = writeGlb(VoxelSelection(map), sampleLabels(), folder / "map.glb");
   const MeshFaces read = readGlb(folder / "map.glb", 0.25, sampleLabels());
-  EXPECT_EQ(read.faces, facesOf(map, sampleLabels()));
+  EXPECT_EQ(read.faces, makeFaces(map, sampleLabels()));
   EXPECT_EQ(read.triangles, triangles);
   EXPECT_LT(triangles, read.faces.size()) << "merged";
 }
@@ -41,7 +41,7 @@ TEST(GltfFile, ScatteredVoxelsOfManyClasses) {
         {{place(random), place(random), place(random)}, static_cast<ClassId>(class_id(random))});
   const SemanticMap map = mapOf(voxels);
   writeGlb(VoxelSelection(map), fourClasses(), folder / "map.glb");
-  EXPECT_EQ(readGlb(folder / "map.glb", 0.5, fourClasses()).faces, facesOf(map, fourClasses()));
+  EXPECT_EQ(readGlb(folder / "map.glb", 0.5, fourClasses()).faces, makeFaces(map, fourClasses()));
 }
 
 TEST(GltfFile, MergesAWallAcrossChunks) {

@@ -150,7 +150,7 @@ TEST(NavigationGrid, SaysWhyThereIsNone) {
     return "no error";
   };
   NavigationOptions options;
-  EXPECT_THAT(errorOf(map, options), HasSubstr("--traversable"));
+  EXPECT_THAT(errorOf(map, options), HasSubstr("name the classes to drive on"));
   options.traversable = {kRug};
   EXPECT_THAT(errorOf(map, options), HasSubstr("no column of the map stands on"));
   options.band = {0.6, 2};

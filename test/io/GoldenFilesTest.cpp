@@ -52,7 +52,7 @@ TEST_P(GoldenFiles, HoldScansOptionsAndMeta) {
   const Options& options = document.map.options();
   EXPECT_EQ(options.resolution, 0.8);
   EXPECT_EQ(options.method, Method::SCsm);
-  EXPECT_EQ(options.free_space, FreeSpace::Sampled);
+  EXPECT_EQ(options.free_space.mode, FreeSpace::Sampled);
   EXPECT_EQ(document.labels.name(), "simulator");
   EXPECT_EQ(document.meta.at("rawlog"), "room.rawlog");
   EXPECT_EQ(document.meta.count("digest"), 0U);

@@ -44,7 +44,7 @@ inline SemanticMap sampleMap() {
   options.number_of_classes = 3;
   options.method = Method::SeeCsom;
   options.resolution = 0.25;
-  options.free_space = FreeSpace::Sampled;
+  options.free_space.mode = FreeSpace::Sampled;
   SemanticMap map(options);
   Scan scan;
   scan.origin = {0.1, -0.2, 1.0};

@@ -78,19 +78,19 @@ TEST_F(MapFileTest, EveryOptionIsKept) {
   options.resolution = 0.1;
   options.block_depth = 3;
   options.method = Method::SBki;
-  options.rvfm = false;
-  options.aklm = false;
-  options.kernel = Kernel::Linear;
-  options.neighbourhood = Neighbourhood::ExtendedBlock;
-  options.ds_resolution = 1.0 / 3;
-  options.min_range = 0.5;
-  options.max_range = 70;
-  options.free_space = FreeSpace::Raycast;
-  options.free_weight = 0.0625;
-  options.context_neighbours = 18;
-  options.kernel_length_min = 0.31;
-  options.kernel_length_max = 0.47;
-  options.kernel_length = 0.4;
+  options.see_csom.rvfm = false;
+  options.kernel.aklm = false;
+  options.kernel.shape = Kernel::Linear;
+  options.see_csom.neighbourhood = Neighbourhood::ExtendedBlock;
+  options.scan.ds_resolution = 1.0 / 3;
+  options.scan.min_range = 0.5;
+  options.scan.max_range = 70;
+  options.free_space.mode = FreeSpace::Raycast;
+  options.free_space.weight = 0.0625;
+  options.see_csom.context_neighbours = 18;
+  options.kernel.length_min = 0.31;
+  options.kernel.length_max = 0.47;
+  options.kernel.length = 0.4;
   options.prior = 1e-4;
   options.threads = 3;
   MapDocument document;
@@ -102,10 +102,10 @@ TEST_F(MapFileTest, EveryOptionIsKept) {
   document.labels = LabelSet::fromYaml(yaml, "seven");
   saveMap(document, folder_ / "m.csom");
   const Options loaded = loadMap(folder_ / "m.csom").map.options();
-  visitOptions(options, [&](const char* name, auto& value, const char*, const char*) {
-    visitOptions(loaded, [&](const char* other, const auto& read, const char*, const char*) {
-      if (std::string(name) == other) {
-        EXPECT_EQ(toString(value), toString(read)) << name;
+  visitOptions(options, [&](const OptionInfo& option, auto& value) {
+    visitOptions(loaded, [&](const OptionInfo& other, const auto& read) {
+      if (std::string(option.key) == other.key) {
+        EXPECT_EQ(toString(value), toString(read)) << option.key;
       }
     });
   });

@@ -120,7 +120,7 @@ TEST_F(ApplicationIni, aFileThatIsMissing) {
 
 TEST_F(ApplicationIni, tellsWhereResultsGo) {
   writeBytes(folder_ / "a.ini", "[A]\nlogOutput_dir = out ; here\n[B]\nlogoutput_dir = there\n");
-  EXPECT_THAT(outputFoldersOf(folder_ / "a.ini"), testing::UnorderedElementsAre("out", "there"));
+  EXPECT_THAT(listOutputFolders(folder_ / "a.ini"), testing::UnorderedElementsAre("out", "there"));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // Images and scans find each other in whatever order they come, and what cannot be used is said.
 #include <csom/core/Error.h>
 #include <csom/maps/CSemanticContinuousMap.h>
-#include <csom/maps/CameraLabelledAdapter.h>
 #include <csom/maps/PoseRounding.h>
 #include <gmock/gmock.h>
 #include <mrpt/io/CMemoryStream.h>
@@ -15,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "CameraLabelledAdapter.h"
 #include "SampleObservations.h"
 
 namespace csom {
@@ -108,8 +108,8 @@ TEST_F(CameraLabelledAdapterTest, pointsTakeTheClassOfTheirPixel) {
   EXPECT_EQ(scans[0].sensor_label, "cloud");
   EXPECT_EQ(scans[0].observation_class, "CObservationPointCloud");
   EXPECT_DOUBLE_EQ(scans[0].timestamp, kStart);
-  EXPECT_EQ(statistics().scans_labelled, 1U);
-  EXPECT_EQ(statistics().sources[0].images_used, 1U);
+  EXPECT_EQ(statistics().scans.labelled, 1U);
+  EXPECT_EQ(statistics().cameras[0].images.used, 1U);
 }
 
 TEST_F(CameraLabelledAdapterTest, anImageMayComeAfterItsScan) {
@@ -157,8 +157,8 @@ TEST_F(CameraLabelledAdapterTest, aScanWhoseImageIsMissingGivesUpWhenTimeHasPass
   const auto scans = give(*scanAt(0.15));
   ASSERT_EQ(scans.size(), 1U);
   EXPECT_TRUE(scans[0].scan.points.empty());
-  EXPECT_EQ(statistics().scans_without_image, 1U);
-  EXPECT_EQ(statistics().points[static_cast<std::size_t>(PointFate::OutsideView)], 2U);
+  EXPECT_EQ(statistics().scans.without_image, 1U);
+  EXPECT_EQ(statistics().points.outside_view, 2U);
   EXPECT_EQ(statistics().pointsDropped(), 2U);
 }
 
@@ -195,7 +195,7 @@ TEST_F(CameraLabelledAdapterTest, pointsThatNoCameraSeesAreDroppedOrUnlabelled) 
   const auto kept = keeping.adapt(*behind, roundedPose({}), rules_);
   ASSERT_EQ(kept->size(), 1U);
   EXPECT_THAT(kept->front().scan.labels, ElementsAre(kRoad, kUnlabelled));
-  EXPECT_EQ(keeping.cameraStatistics()->kept_unlabelled, 1U);
+  EXPECT_EQ(keeping.cameraStatistics()->points.kept_unlabelled, 1U);
   EXPECT_EQ(keeping.cameraStatistics()->pointsDropped(), 0U);
 }
 
@@ -219,7 +219,7 @@ TEST_F(CameraLabelledAdapterTest, A1_pointsOnPixelsWithoutAClassAreObstaclesTooI
 
 TEST_F(CameraLabelledAdapterTest, A8_itTellsWhichWayTheCameraLooks) {
   give(*labelImage(0));
-  const auto& axis = statistics().sources[0].looks_along;
+  const auto& axis = statistics().cameras[0].looks_along;
   EXPECT_NEAR(axis[0], 1, 1e-9);
   EXPECT_NEAR(axis[1], 0, 1e-9);
   EXPECT_NEAR(axis[2], 0, 1e-9);
@@ -250,8 +250,8 @@ TEST_F(CameraLabelledAdapterTest, pixelsThatTheLabelSetIgnoresOrDoesNotKnowAreCo
   const auto scans = give(*scanAt(0));
   ASSERT_EQ(scans.size(), 1U);
   EXPECT_TRUE(scans[0].scan.points.empty());
-  EXPECT_EQ(statistics().points[static_cast<std::size_t>(PointFate::Ignored)], 1U);
-  EXPECT_EQ(statistics().points[static_cast<std::size_t>(PointFate::Unknown)], 1U);
+  EXPECT_EQ(statistics().points.ignored, 1U);
+  EXPECT_EQ(statistics().points.unknown, 1U);
 }
 
 TEST_F(CameraLabelledAdapterTest, aRangeCameraLabelsItsOwnPointsFromItsOwnImage) {
@@ -333,8 +333,8 @@ TEST_F(DamagedImageTest, aCameraWithoutCalibration) {
   auto image = labelImage(0);
   image->cameraParams = mrpt::img::TCamera();
   EXPECT_THAT(reasonOf(*image), HasSubstr("not calibrated"));
-  EXPECT_EQ(statistics().sources[0].images_read, 1U);
-  EXPECT_EQ(statistics().sources[0].images_refused, 1U);
+  EXPECT_EQ(statistics().cameras[0].images.read, 1U);
+  EXPECT_EQ(statistics().cameras[0].images.refused, 1U);
 }
 
 TEST_F(DamagedImageTest, anImageOfAnotherSizeThanItsCalibration) {
@@ -377,7 +377,7 @@ TEST_F(DamagedImageTest, noTimeStamp) {
 TEST_F(DamagedImageTest, twoCamerasWithTheSameLabel) {
   give(*labelImage(0));
   EXPECT_THAT(reasonOf(*labelImage(0, kWallId, kWallId)), HasSubstr("another image"));
-  EXPECT_EQ(statistics().sources[0].images_refused, 1U);
+  EXPECT_EQ(statistics().cameras[0].images.refused, 1U);
   const auto scans = give(*scanAt(0));
   ASSERT_EQ(scans.size(), 1U);
   EXPECT_THAT(scans[0].scan.labels, ElementsAre(kRoad, kWall)) << "the first one counts";
@@ -397,7 +397,7 @@ TEST_F(CameraLabelledAdapterTest, slightDisorderIsSorted) {
   const auto scans = give(*scanAt(0.01));
   ASSERT_EQ(scans.size(), 1U);
   EXPECT_THAT(scans[0].scan.labels, ElementsAre(kRoad, kWall));
-  EXPECT_EQ(statistics().restarts, 0U);
+  EXPECT_EQ(statistics().clock_restarts, 0U);
 }
 
 TEST_F(CameraLabelledAdapterTest, timeMayBeginAtZero) {
@@ -414,7 +414,7 @@ TEST_F(CameraLabelledAdapterTest, aClockThatGoesBackStartsAnew) {
   const auto finished = give(*labelImage(0));
   ASSERT_EQ(finished.size(), 1U) << "what waited is labelled with what there was";
   EXPECT_THAT(finished[0].scan.labels, ElementsAre(kWall, kWall));
-  EXPECT_EQ(statistics().restarts, 1U);
+  EXPECT_EQ(statistics().clock_restarts, 1U);
   EXPECT_TRUE(give(*scanAt(0.02)).empty()) << "waits as at the beginning";
   const auto scans = give(*labelImage(0.02));
   ASSERT_EQ(scans.size(), 1U);
@@ -427,13 +427,13 @@ TEST_F(CameraLabelledAdapterTest, aScanThatComesLateIsCounted) {
   const auto scans = give(*scanAt(4.2));
   ASSERT_EQ(scans.size(), 1U);
   EXPECT_THAT(scans[0].scan.labels, ElementsAre(kRoad, kWall)) << "its image is still there";
-  EXPECT_EQ(statistics().scans_late, 0U);
+  EXPECT_EQ(statistics().scans.late, 0U);
 
   for (int i = 1; i <= 200; ++i) give(*labelImage(5 + 0.02 * i));
   const auto late = give(*scanAt(8.1));
   ASSERT_EQ(late.size(), 1U);
   EXPECT_TRUE(late[0].scan.points.empty()) << "so many images have come since";
-  EXPECT_EQ(statistics().scans_late, 1U);
+  EXPECT_EQ(statistics().scans.late, 1U);
 }
 
 TEST_F(CameraLabelledAdapterTest, noMoreThanSixtyFourScansWait) {
@@ -444,7 +444,7 @@ TEST_F(CameraLabelledAdapterTest, noMoreThanSixtyFourScansWait) {
   for (int i = 0; i < 70; ++i)
     finished += patient.adapt(*scanAt(0.01 * i), roundedPose({}), rules_)->size();
   EXPECT_EQ(finished, 6U);
-  EXPECT_EQ(patient.cameraStatistics()->scans_without_image, 6U);
+  EXPECT_EQ(patient.cameraStatistics()->scans.without_image, 6U);
   EXPECT_EQ(patient.flush().size(), 64U);
 }
 
@@ -496,8 +496,8 @@ TEST(CameraLabelledMap, copiesCarryWhatWaits) {
     EXPECT_EQ(each->map().at({5, 1, 0}).mostLikelyClass(), kRoad);
     EXPECT_EQ(each->map().at({5, -1, 0}).mostLikelyClass(), kWall);
     ASSERT_TRUE(each->cameraStatistics());
-    EXPECT_EQ(each->cameraStatistics()->sources[0].images_read, 2U);
-    EXPECT_EQ(each->cameraStatistics()->sources[0].images_used, 1U);
+    EXPECT_EQ(each->cameraStatistics()->cameras[0].images.read, 2U);
+    EXPECT_EQ(each->cameraStatistics()->cameras[0].images.used, 1U);
   }
 }
 
@@ -517,7 +517,7 @@ TEST(CameraLabelledMap, anyLabelOutvotesWhatNoCameraSaw) {
 
 TEST(CameraLabelledMap, aDamagedImageIsReportedAndTheScanBeforeItIsNotLost) {
   CSemanticContinuousMap map = cameraMap();
-  map.announce_damaged = false;
+  map.warn_of_damaged = false;
   map.insertObservation(*labelImage(0));
   map.insertObservation(*scanAt(0.02));
   auto image = labelImage(0.02);

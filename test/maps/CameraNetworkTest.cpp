@@ -2,7 +2,6 @@
 // From the images of the simulated drive through its network to labelled scans.
 #include <csom/core/Error.h>
 #include <csom/maps/CSemanticContinuousMap.h>
-#include <csom/maps/CameraLabelledAdapter.h>
 #include <csom/maps/PoseRounding.h>
 #include <gmock/gmock.h>
 #include <mrpt/obs/CObservationImage.h>
@@ -11,6 +10,8 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+
+#include "CameraLabelledAdapter.h"
 
 namespace csom {
 namespace {
@@ -59,8 +60,8 @@ Labelled label(const Definition& definition) {
 TEST(CameraNetwork, labelsPointsInView) {
   const Labelled labelled = label(campusDefinition());
   ASSERT_EQ(labelled.scans.size(), 3U);
-  EXPECT_EQ(labelled.statistics.sources.at(0).network_runs, 3U);
-  EXPECT_GT(labelled.statistics.network_seconds, 0);
+  EXPECT_EQ(labelled.statistics.cameras.at(0).images.network_runs, 3U);
+  EXPECT_GT(labelled.statistics.seconds.network, 0);
   for (const AdaptedScan& scan : labelled.scans) {
     EXPECT_GT(scan.scan.points.size(), 1000U);
     const std::set<ClassId> classes(scan.scan.labels.begin(), scan.scan.labels.end());
@@ -101,7 +102,7 @@ TEST(CameraNetwork, unsurePointsAreDroppedOrKeptAsDistributions) {
   Definition definition = campusDefinition();
   definition.labelOpts.points.min_confidence = 0.9;
   const Labelled dropped = label(definition);
-  const auto low = dropped.statistics.points[static_cast<std::size_t>(PointFate::LowConfidence)];
+  const auto low = dropped.statistics.points.low_confidence;
   EXPECT_GT(low, 0U);
   definition.labelOpts.points.low_confidence = PointLabellingOptions::LowConfidence::Soft;
   const Labelled kept = label(definition);
@@ -121,9 +122,9 @@ TEST(CameraNetwork, aCachedRunNeedsNoNetworkAndGivesTheSameScans) {
   definition.labelOpts.label_cache = cache.string();
   const Labelled first = label(definition);
   const Labelled second = label(definition);
-  EXPECT_EQ(first.statistics.sources[0].network_runs, 3U);
-  EXPECT_EQ(second.statistics.sources[0].network_runs, 0U);
-  EXPECT_EQ(second.statistics.sources[0].from_cache, 3U);
+  EXPECT_EQ(first.statistics.cameras[0].images.network_runs, 3U);
+  EXPECT_EQ(second.statistics.cameras[0].images.network_runs, 0U);
+  EXPECT_EQ(second.statistics.cameras[0].images.from_cache, 3U);
   for (std::size_t i = 0; i < plain.scans.size(); ++i) {
     EXPECT_EQ(first.scans[i].scan.labels, plain.scans[i].scan.labels);
     EXPECT_EQ(second.scans[i].scan.labels, plain.scans[i].scan.labels);

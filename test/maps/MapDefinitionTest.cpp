@@ -95,14 +95,15 @@ TEST_F(MapDefinition, everyCoreOptionIsReadFromEverySection) {
   for (const char* suffix : {"creationOpts", "insertOpts", "insertionOpts"}) {
     std::string keys = section(suffix);
     const Options defaults;
-    visitOptions(defaults, [&](const std::string& key, const auto& field, auto, auto) {
-      if (!comesFromLabelSet(key)) keys += key + " = " + OtherValue()(key, field) + "\n";
+    visitOptions(defaults, [&](const OptionInfo& option, const auto& field) {
+      if (!comesFromLabelSet(option.key))
+        keys += std::string(option.key) + " = " + OtherValue()(option.key, field) + "\n";
     });
     const Definition definition = load(keys);
     EXPECT_THAT(definition.unknownKeys(), ElementsAre()) << suffix;
-    visitOptions(definition.options, [&](const std::string& key, const auto& field, auto, auto) {
-      if (comesFromLabelSet(key)) return;
-      EXPECT_EQ(toString(field), OtherValue()(key, field)) << suffix << " " << key;
+    visitOptions(definition.options, [&](const OptionInfo& option, const auto& field) {
+      if (comesFromLabelSet(option.key)) return;
+      EXPECT_EQ(toString(field), OtherValue()(option.key, field)) << suffix << " " << option.key;
     });
   }
 }

@@ -90,13 +90,13 @@ TEST(MetricMap, whatHasNoUsableLabelIsRejectedByNameIfItIsNotKept) {
 TEST(MetricMap, B9_aScanThatCannotBeInsertedIsRefusedAndNotThrown) {
   Options options;
   options.resolution = 0.064;
-  options.free_space = FreeSpace::Sampled;
-  options.free_resolution = 0.001;  // 2^27 free samples are soon reached
+  options.free_space.mode = FreeSpace::Sampled;
+  options.free_space.resolution = 0.001;  // 2^27 free samples are soon reached
   CSemanticContinuousMap map(options, testing::sampleLabels());
   map.insertionOptions.point_labels = PointLabels::ByIntensity;
   std::vector<Eigen::Vector3f> points;
   for (int i = 0; i < 20000; ++i) points.emplace_back(7.9f, 0.0001f * static_cast<float>(i), 0.0f);
-  map.announce_damaged = false;
+  map.warn_of_damaged = false;
   EXPECT_FALSE(
       map.insertObservation(*pointCloud(points, std::vector<float>(points.size(), 40.0f))));
   EXPECT_EQ(map.lastInsertion().outcome, LastInsertion::Outcome::Damaged);
@@ -129,7 +129,7 @@ TEST(MetricMap, refusesWhatItCannotUseWithoutThrowing) {
 TEST(MetricMap, tellsWhatBecameOfTheLastObservation) {
   using Outcome = LastInsertion::Outcome;
   CSemanticContinuousMap map = sampleMap();
-  map.announce_damaged = false;
+  map.warn_of_damaged = false;
   map.insertObservation(*roomCloud());
   EXPECT_EQ(map.lastInsertion().outcome, Outcome::Inserted);
   map.insertObservation(mrpt::obs::CObservationOdometry());
@@ -221,7 +221,7 @@ TEST(MetricMap, documentRoundTrip) {
 
   // Counts go on from those of the document.
   const auto insert_faults = [](CSemanticContinuousMap& into) {
-    into.announce_damaged = false;
+    into.warn_of_damaged = false;
     into.insertObservation(*pointCloud({{1, 0, 0}, {2, 0, 0}}, {40, 77}));
     into.insertObservation(mrpt::obs::CObservationOdometry());
     into.insertObservation(mrpt::obs::CObservationPointCloud());
@@ -318,7 +318,7 @@ TEST(MetricMap, publishesEvents) {
 
 TEST(MetricMap, raycastingFreesWhatTheBeamsCross) {
   Options options;
-  options.free_space = FreeSpace::Raycast;
+  options.free_space.mode = FreeSpace::Raycast;
   CSemanticContinuousMap map(options);
   ASSERT_TRUE(map.insertObservation(*laserScan()));
   EXPECT_EQ(map.map().at({5.0, 0.05, 0.05}).state(), VoxelState::Occupied);

@@ -60,7 +60,7 @@ class OctoMapAgreement : public ::testing::Test {
     Options options;
     options.resolution = kResolution;
     options.method = Method::SCsm;
-    options.free_space = FreeSpace::Raycast;
+    options.free_space.mode = FreeSpace::Raycast;
     return options;
   }
 };

@@ -25,7 +25,7 @@ CSemanticContinuousMap blockMap(int edge, FreeSpace free_space = FreeSpace::None
   Options options;
   options.method = Method::SCsm;
   options.resolution = 0.1;
-  options.free_space = free_space;
+  options.free_space.mode = free_space;
   options.number_of_classes = testing::sampleLabels().numberOfClasses();
   CSemanticContinuousMap map(options, testing::sampleLabels());
   map.insertionOptions.point_labels = PointLabels::ByIntensity;

@@ -21,7 +21,7 @@ using testing::roomCloud;
 using testing::roomMap;
 using testing::sampleMap;
 
-std::string digestOf(const CSemanticPointsMap& map) {
+std::string computeDigest(const CSemanticPointsMap& map) {
   return mapDigest(map.semanticMap().map());
 }
 
@@ -40,7 +40,7 @@ TEST(SemanticPointsMap, isAPointsMapOfTheOccupiedVoxels) {
   EXPECT_TRUE(map.isEmpty());
   ASSERT_TRUE(map.insertObservation(*roomCloud()));
   EXPECT_TRUE(map.GetRuntimeClass()->derivedFrom(CLASS_ID(mrpt::maps::CPointsMap)));
-  EXPECT_EQ(digestOf(map), mapDigest(roomMap().map()));
+  EXPECT_EQ(computeDigest(map), mapDigest(roomMap().map()));
   EXPECT_EQ(map.size(), roomMap().getAsSimplePointsMap()->size());
   EXPECT_GT(map.size(), 1000u);
   EXPECT_EQ(map.getAsSimplePointsMap(), &map);
@@ -75,7 +75,7 @@ TEST(SemanticPointsMap, isMadeFromAnIni) {
   const auto map = maps.mapByClass<CSemanticPointsMap>();
   ASSERT_TRUE(map);
   EXPECT_EQ(map->semanticMap().map().options().resolution, 0.3);
-  EXPECT_EQ(map->semanticMap().map().options().max_range, 7);
+  EXPECT_EQ(map->semanticMap().map().options().scan.max_range, 7);
   EXPECT_FALSE(map->canComputeObservationLikelihood(*roomCloud()));
   // As icp-slam looks for what it aligns scans to.
   EXPECT_TRUE(maps.mapByClass<mrpt::maps::CPointsMap>());
@@ -86,7 +86,7 @@ TEST(SemanticPointsMap, isMadeFromAnIni) {
   const auto copied = copy.mapByClass<CSemanticPointsMap>();
   ASSERT_TRUE(copied);
   EXPECT_NE(copied, map);
-  EXPECT_EQ(digestOf(*copied), digestOf(*map));
+  EXPECT_EQ(computeDigest(*copied), computeDigest(*map));
   EXPECT_EQ(copied->size(), map->size());
   EXPECT_FALSE(copied->genericMapParams.enableObservationLikelihood);
 }
@@ -96,12 +96,12 @@ TEST(SemanticPointsMap, copiesAreOfTheirOwn) {
   CSemanticPointsMap copy(original);
   CSemanticPointsMap assigned;
   assigned = original;
-  EXPECT_EQ(digestOf(copy), digestOf(original));
+  EXPECT_EQ(computeDigest(copy), computeDigest(original));
   EXPECT_EQ(assigned.size(), original.size());
   copy.insertObservation(*roomCloud(), CPose3D(10, 0, 0, 0, 0, 0));
   EXPECT_GT(copy.size(), original.size());
-  EXPECT_NE(digestOf(copy), digestOf(original));
-  EXPECT_EQ(digestOf(assigned), digestOf(original));
+  EXPECT_NE(computeDigest(copy), computeDigest(original));
+  EXPECT_EQ(computeDigest(assigned), computeDigest(original));
 }
 
 }  // namespace

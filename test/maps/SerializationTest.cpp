@@ -95,15 +95,15 @@ bool isReadOrRejected(const Bytes& bytes) {
 
 std::map<std::string, std::string> asText(const Options& options) {
   std::map<std::string, std::string> texts;
-  visitOptions(options, [&](const char* key, const auto& field, const char*, const char*) {
-    texts[key] = toString(field);
+  visitOptions(options, [&](const OptionInfo& option, const auto& field) {
+    texts[option.key] = toString(field);
   });
   return texts;
 }
 
 CSemanticContinuousMap fullMap() {
   CSemanticContinuousMap map = roomMap();
-  map.announce_damaged = false;
+  map.warn_of_damaged = false;
   map.insertObservation(*roomCloud(0.3f), mrpt::poses::CPose3D(0.5, 0, 0, 0.1, 0, 0));
   map.insertObservation(mrpt::obs::CObservationPointCloud());
   map.insertObservation(*testing::pointCloud({{1e30f, 0, 0}}, {40}));

@@ -25,13 +25,24 @@ run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run(${WORK_DIR}/build/consumer)
 
-run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${CONSUMER_DIR}/core_only -B ${WORK_DIR}/core_only
-  -DCMAKE_PREFIX_PATH=${WORK_DIR}/moved -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
-  -DCMAKE_CXX_FLAGS=${CXX_FLAGS} -DCMAKE_BUILD_TYPE=${BUILD_TYPE})
-run(${CMAKE_COMMAND} --build ${WORK_DIR}/core_only)
-run(${WORK_DIR}/core_only/planner)
+# The examples, as their README says.
+set(root ${CONSUMER_DIR}/../../..)
+file(GLOB examples ${root}/examples/*/CMakeLists.txt)
+list(LENGTH examples count)
+if(NOT count EQUAL 4)
+  message(FATAL_ERROR "${count} examples instead of 4")
+endif()
+foreach(list_file ${examples})
+  get_filename_component(folder ${list_file} DIRECTORY)
+  get_filename_component(name ${folder} NAME)
+  run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${folder} -B ${WORK_DIR}/examples/${name}
+    -DCMAKE_PREFIX_PATH=${WORK_DIR}/moved -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+    -DCMAKE_CXX_FLAGS=${CXX_FLAGS} -DCMAKE_BUILD_TYPE=${BUILD_TYPE})
+  run(${CMAKE_COMMAND} --build ${WORK_DIR}/examples/${name})
+  run(${CMAKE_COMMAND} -E chdir ${WORK_DIR}/examples/${name} ./example)
+endforeach()
 
-foreach(component vision io exports mrpt_exports eval maps rawlog protocols report)
+foreach(component core vision io exports mrpt_exports eval maps rawlog protocols report)
   run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${CONSUMER_DIR}/one_component
     -B ${WORK_DIR}/one_component/${component} -DCOMPONENT=${component}
     -DCMAKE_PREFIX_PATH=${WORK_DIR}/moved -DCMAKE_CXX_COMPILER=${CXX_COMPILER})
@@ -39,7 +50,6 @@ endforeach()
 
 run(${WORK_DIR}/moved/${BINDIR}/csom --version)
 # Its modules have moved along.
-set(root ${CONSUMER_DIR}/../../..)
 run(${WORK_DIR}/moved/${BINDIR}/csom map ${root}/rawlogs/room.rawlog -c ${root}/config/room.ini
   -o ${WORK_DIR}/room --poses icp --no-html)
 foreach(file labels/semantickitti.yaml campus.ini)

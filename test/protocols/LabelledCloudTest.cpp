@@ -29,7 +29,7 @@ TEST(LabelledCloud, AScanHoldsThePointsWithALabelAsSeenFromItsOrigin) {
 }
 
 TEST(LabelledCloud, TruthIsTheMajorityAndLeavesOutWhatHasNoLabel) {
-  const VoxelTruth truth = truthOf(example(), 1.0, 4);
+  const VoxelTruth truth = computeTruth(example(), 1.0, 4);
   EXPECT_EQ(truth.at({0, 0, 0}), 2);
   EXPECT_FALSE(truth.at({1, 0, 0}));
   EXPECT_EQ(truth.at({2, 0, 0}), 1);  // a tie: the lower id
@@ -40,7 +40,7 @@ TEST(LabelledCloud, TruthIsTheMajorityAndLeavesOutWhatHasNoLabel) {
 TEST(LabelledCloud, WithoutALabelThereIsNoTruth) {
   LabelledCloud cloud;
   cloud.add({0, 0, 0}, kFreeClass);
-  EXPECT_THROW(truthOf(cloud, 1.0, 4), std::invalid_argument);
+  EXPECT_THROW(computeTruth(cloud, 1.0, 4), std::invalid_argument);
 }
 
 }  // namespace

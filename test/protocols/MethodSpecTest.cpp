@@ -23,8 +23,7 @@ TEST(MethodSpec, IsANameWithSettings) {
   EXPECT_EQ(spec.text, "see-csom:rvfm=off:block_depth=3");
   EXPECT_EQ(spec.name, "see-csom");
   ASSERT_EQ(spec.settings.size(), 2U);
-  EXPECT_EQ(spec.settings[1].first, "block_depth");
-  EXPECT_EQ(spec.settings[1].second, "3");
+  EXPECT_EQ(spec.settings.at("block_depth"), "3");
 }
 
 TEST(MethodSpec, ErrorsNameWhatIsWrong) {
@@ -65,8 +64,8 @@ TEST(MethodSpec, SettingsGoBeforeThoseOfTheTrialButForFreeSpaceThatItHasNot) {
   map->insert(scan);
   EXPECT_FALSE(map->at({1.5, 0.5, 0.5}).known);
 
-  options.free_space = FreeSpace::Sampled;
-  options.free_resolution = 100;  // no sample would fit
+  options.free_space.mode = FreeSpace::Sampled;
+  options.free_space.resolution = 100;  // no sample would fit
   map = makeMapper(spec, options);
   map->insert(scan);
   EXPECT_TRUE(map->at({1.5, 0.5, 0.5}).known);

@@ -23,7 +23,7 @@ TEST(RoomProtocols, P1IsOneScanAtEachDensity) {
   EXPECT_EQ(trials[1].variant, "ds 0.20");
   ASSERT_EQ(trials[0].scans->size(), 1U);
   EXPECT_EQ(trials[0].scans->front().points.size(), 4U * (800 + 100));
-  EXPECT_EQ(trials[0].options.free_space, FreeSpace::None);
+  EXPECT_EQ(trials[0].options.free_space.mode, FreeSpace::None);
 }
 
 TEST(RoomProtocols, CountingAtTheVoxelsOwnDensityIsTheTruth) {

@@ -30,7 +30,7 @@ TEST(SimulatedProtocols, P4IsWhatTheSensorsLabelThemselves) {
   EXPECT_TRUE(trial.truth->knowsFree());
   EXPECT_EQ(trial.truth->at({15, 10, 7}), kFreeClass);
   EXPECT_EQ(trial.options.resolution, 0.1);
-  EXPECT_EQ(trial.options.free_space, FreeSpace::Sampled);
+  EXPECT_EQ(trial.options.free_space.mode, FreeSpace::Sampled);
 
   const TrialResult result = runTrial(trial, MethodSpec::parse("see-csom")).front();
   ASSERT_TRUE(result.voxels.roc_unknown_half);

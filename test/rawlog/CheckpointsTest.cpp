@@ -197,7 +197,7 @@ TEST_F(CheckpointsTest, TheRequestIsInTheFile) {
   EXPECT_THROW(mapLogs(request, {}, checkpoints), Interrupted);
   const MapStore::State state = readState(file);
   EXPECT_EQ(state.at("note.mood"), "good");
-  const MappingRequest read = requestOf(state, file);
+  const MappingRequest read = readRequest(state, file);
   EXPECT_EQ(read.logs, request.logs);
   EXPECT_EQ(read.config_file, request.config_file);
   EXPECT_EQ(read.poses->toString(), "robot-pose:truth");
@@ -239,7 +239,7 @@ TEST_F(CheckpointsTest, MemoryThatRunsShortEndsTheRunWithAllSaved) {
     message = error.what();
   }
   EXPECT_THAT(message, HasSubstr("memory is short: 3 MB are left of a test; "));
-  EXPECT_THAT(message, HasSubstr("--max-memory maps the rest with less"));
+  EXPECT_THAT(message, HasSubstr("the rest can be mapped with less"));
   const MapDocument saved = loadMap(file);
   EXPECT_THAT(message, HasSubstr(std::to_string(saved.scans.size()) + " scan"));
 }

@@ -72,7 +72,9 @@ class DeskewTest : public testing::Test {
     request.keep_key_frames = true;
     return mapLogs(request);
   }
-  static std::string digestOf(const MappingResult& result) { return mapDigest(result.map->map()); }
+  static std::string computeDigest(const MappingResult& result) {
+    return mapDigest(result.map->map());
+  }
 
   const TempFolder folder;
   const std::string log = folder / "drive.rawlog";
@@ -110,7 +112,7 @@ TEST_F(DeskewTest, WhatTheSensorSawAtOnceStaysAsItIs) {
   const MappingResult off = mapped(log, false);
   EXPECT_EQ(on.deskew->not_needed, scans.size());
   EXPECT_FALSE(off.deskew);
-  EXPECT_EQ(digestOf(on), digestOf(off));
+  EXPECT_EQ(computeDigest(on), computeDigest(off));
 }
 
 TEST_F(DeskewTest, NothingIsMovedWithoutPosesForTheWholeTurn) {
@@ -174,11 +176,11 @@ TEST_F(DeskewTest, ARunCountsItsScansAndItsSimplemapGivesTheSameMap) {
   EXPECT_EQ(result.deskew->deskewed, scans.size() - 1);
   EXPECT_EQ(result.deskew->not_possible, 1U) << "the last turn: there is no pose after it";
   EXPECT_THAT(result.warnings, testing::Contains(HasSubstr("1 scans are in the map as if")));
-  EXPECT_NE(digestOf(result), digestOf(mapped(log, false)));
+  EXPECT_NE(computeDigest(result), computeDigest(mapped(log, false)));
 
   ASSERT_TRUE(result.key_frames.saveToFile(folder / "a.simplemap"));
   const MappingResult again = mapped(folder / "a.simplemap", true);
-  EXPECT_EQ(digestOf(again), digestOf(result));
+  EXPECT_EQ(computeDigest(again), computeDigest(result));
 }
 
 TEST_F(DeskewTest, RegistrationTakesTheMotionOutOfWhatItRegisters) {

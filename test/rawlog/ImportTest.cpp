@@ -313,18 +313,19 @@ TEST(ImportPcd, ChoosesTheFieldThatCarriesLabels) {
   writeBytes(folder / "bare.pcd", pcd("x y z", "0 0 0", "1 2 3\n"));
   PcdImport request;
   request.files = {folder / "both.pcd"};
-  const auto cloudOf = [&](const std::string& field) {
+  const auto makeCloud = [&](const std::string& field) {
     request.label_field = field;
     importPcd(request, folder / "a.rawlog");
     return only<mrpt::obs::CObservationPointCloud>(observationsOf(folder / "a.rawlog")).at(0);
   };
-  EXPECT_THAT(intensitiesOf(*cloudOf("")), testing::ElementsAre(5));
-  EXPECT_THAT(intensitiesOf(*cloudOf("LABEL")), testing::ElementsAre(5));
-  EXPECT_THAT(intensitiesOf(*cloudOf("intensity")), testing::ElementsAre(77));
+  EXPECT_THAT(intensitiesOf(*makeCloud("")), testing::ElementsAre(5));
+  EXPECT_THAT(intensitiesOf(*makeCloud("LABEL")), testing::ElementsAre(5));
+  EXPECT_THAT(intensitiesOf(*makeCloud("intensity")), testing::ElementsAre(77));
   request.files = {folder / "bare.pcd"};
-  EXPECT_EQ(std::dynamic_pointer_cast<mrpt::maps::CPointsMapXYZI>(cloudOf("")->pointcloud), nullptr)
+  EXPECT_EQ(std::dynamic_pointer_cast<mrpt::maps::CPointsMapXYZI>(makeCloud("")->pointcloud),
+            nullptr)
       << "points without labels have none, not label 0";
-  EXPECT_THROW(cloudOf("label"), FileError);
+  EXPECT_THROW(makeCloud("label"), FileError);
 }
 
 TEST(ImportPcd, ReportsRowsAndLabelsThatItCouldNotKeep) {

@@ -25,7 +25,7 @@ MappingResult mapped(const TempFolder& folder, const std::vector<std::string>& l
   return mapLogs(request);
 }
 
-std::string digestOf(const MappingResult& result) {
+std::string computeDigest(const MappingResult& result) {
   return mapDigest(result.map->map());
 }
 
@@ -58,7 +58,7 @@ TEST(MappingRun, EqualsADirectLoopOverTheCore) {
     for (const AdaptedScan& scan : *scans) map.insert(scan.scan);
   }
   EXPECT_GT(map.knownVoxelCount(), 100u);
-  EXPECT_EQ(digestOf(result), mapDigest(map));
+  EXPECT_EQ(computeDigest(result), mapDigest(map));
 }
 
 TEST(MappingRun, TheSimplemapThatItWritesGivesTheSameMap) {
@@ -70,7 +70,7 @@ TEST(MappingRun, TheSimplemapThatItWritesGivesTheSameMap) {
   ASSERT_TRUE(result.key_frames.saveToFile(folder / "a.simplemap"));
   const auto again = mapped(folder, {folder / "a.simplemap"});
   EXPECT_EQ(again.logs.at(0).poses.toString(), "key-frames");
-  EXPECT_EQ(digestOf(again), digestOf(result));
+  EXPECT_EQ(computeDigest(again), computeDigest(result));
 }
 
 TEST(MappingRun, LogsOneAfterAnotherEqualOneLog) {
@@ -81,7 +81,7 @@ TEST(MappingRun, LogsOneAfterAnotherEqualOneLog) {
   const auto second = writeLog(folder / "2.rawlog", {entries.begin() + 4, entries.end()});
   const auto parts = mapped(folder, {second, first});
   EXPECT_EQ(parts.logs.size(), 2u);
-  EXPECT_EQ(digestOf(parts), digestOf(mapped(folder, {whole})));
+  EXPECT_EQ(computeDigest(parts), computeDigest(mapped(folder, {whole})));
 }
 
 TEST(MappingRun, RefusesAndCountsWhatItCannotUse) {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "Html.h"
+#include <csom/report/Html.h>
 #include "SampleMaps.h"
 
 namespace csom {
@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string pageOf(const RunRecord& record, const MapDocument& document) {
-  return htmlReport(record, document, figuresOf(document),
+  return htmlReport(record, document, computeFigures(document),
                     {{MapView::Top, mapPicturePng(document, MapView::Top)}});
 }
 
@@ -83,10 +83,10 @@ TEST(HtmlReportTest, ThePictureIsInsideAndHasAnAltText) {
   const MapDocument document = test::mapOf({{{0, 0, 0}, 1}});
   const std::vector<std::uint8_t> png = mapPicturePng(document, MapView::Side);
   const std::string page =
-      htmlReport(test::sampleRecord(), document, figuresOf(document), {{MapView::Side, png}});
+      htmlReport(test::sampleRecord(), document, computeFigures(document), {{MapView::Side, png}});
   EXPECT_THAT(page, HasSubstr("src=\"data:image/png;base64," + encodeBase64(png) + "\""));
   EXPECT_THAT(page, HasSubstr("alt=\"The map from the side"));
-  EXPECT_THAT(htmlReport(test::sampleRecord(), document, figuresOf(document), {}),
+  EXPECT_THAT(htmlReport(test::sampleRecord(), document, computeFigures(document), {}),
               Not(HasSubstr("<img")));
 }
 
@@ -159,9 +159,9 @@ TEST(HtmlReportTest, DrawsTheTimeOfEachObservationAndOfTheRun) {
 TEST(HtmlReportTest, ShowsEveryParameterWithItsUnitAndMeaning) {
   const std::string page = samplePage();
   const Options options;
-  visitOptions(options, [&](const char* name, const auto&, const char*, const char* help) {
-    EXPECT_THAT(page, HasSubstr(std::string("<code>") + name + "</code>"));
-    EXPECT_THAT(page, HasSubstr(escapeHtml(help)));
+  visitOptions(options, [&](const OptionInfo& option, const auto& field) {
+    EXPECT_THAT(page, HasSubstr(std::string("<code>") + option.key + "</code>"));
+    EXPECT_THAT(page, HasSubstr(escapeHtml(fullHelp(option, field))));
   });
   EXPECT_THAT(page, HasSubstr(">0.2 m</td>"));
 }
@@ -224,7 +224,7 @@ TEST(HtmlReportTest, SaysWhatBecameOfThePointsInView) {
   EXPECT_THAT(page, HasSubstr("1 of these came when"));
   EXPECT_THAT(page, Not(HasSubstr("time stamps went back")));
   EXPECT_THAT(page, HasSubstr("<code>left</code></td><td class=\"text\">network</td><td>20</td>"
-                              "<td>15</td><td>12</td><td>3</td><td>4</td><td>1</td>"));
+                              "<td>15</td><td>12</td><td>3</td><td>1</td><td>4</td>"));
   EXPECT_THAT(page, HasSubstr("The network alone took 10 s; the rest of the run added 23.4 %"));
   EXPECT_THAT(page, HasSubstr("1,500 were hidden from the camera, or at a label border"));
   EXPECT_THAT(page, HasSubstr("10,000 points outside of the view of all cameras were left out"));
@@ -248,8 +248,8 @@ TEST(HtmlReportTest, SaysThatPointsWereKeptAsUnlabelledAndThatTheClockWentBack) 
 
 TEST(HtmlReportTest, SaysHowScansWereRegisteredAndDeskewed) {
   RunRecord record = test::sampleRecord();
-  record.registration = RegistrationRecord{100, 3, 12.5};
-  record.deskew = DeskewCounts{97, 2, 1};
+  record.registration = RegistrationStatistics{100, 3, 12.5};
+  record.deskew = DeskewStatistics{97, 2, 1};
   const std::string page = pageOfCameraRun(record);
   EXPECT_THAT(page, HasSubstr("100 scans registered in 12.5 s, of which 3 fit poorly."));
   EXPECT_THAT(page, HasSubstr("Scans de-skewed: 97, not needed: 2, not possible: 1."));

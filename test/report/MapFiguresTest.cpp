@@ -9,7 +9,7 @@ namespace csom {
 namespace {
 
 TEST(MapFiguresTest, AnEmptyMapHasNothing) {
-  const MapFigures figures = figuresOf(test::mapOf({}));
+  const MapFigures figures = computeFigures(test::mapOf({}));
   EXPECT_EQ(figures.known_voxels, 0u);
   EXPECT_EQ(figures.chunks, 0u);
   EXPECT_TRUE(figures.bounds.isEmpty());
@@ -24,7 +24,7 @@ TEST(MapFiguresTest, AnEmptyMapHasNothing) {
 TEST(MapFiguresTest, CountsVoxelsByStateAndClass) {
   const MapDocument document =
       test::mapOf({{{0, 0, 0}, 1}, {{1, 0, 0}, 1}, {{2, 0, 0}, 1}, {{0, 0, 1}, 2}, {{5, 5, 5}, 0}});
-  const MapFigures figures = figuresOf(document);
+  const MapFigures figures = computeFigures(document);
   EXPECT_EQ(figures.known_voxels, 5u);
   EXPECT_EQ(figures.occupied_voxels, 4u);
   EXPECT_EQ(figures.free_voxels, 1u);
@@ -42,7 +42,7 @@ TEST(MapFiguresTest, CountsVoxelsByStateAndClass) {
 }
 
 TEST(MapFiguresTest, VolumeAndBoundsAreMetric) {
-  const MapFigures figures = figuresOf(test::mapOf({{{-2, 0, 0}, 3}, {{3, 1, 0}, 3}}, 0.5));
+  const MapFigures figures = computeFigures(test::mapOf({{{-2, 0, 0}, 3}, {{3, 1, 0}, 3}}, 0.5));
   EXPECT_DOUBLE_EQ(figures.resolution, 0.5);
   EXPECT_DOUBLE_EQ(figures.classes[3].volume, 2 * 0.125);
   EXPECT_TRUE(figures.bounds.min().isApprox(Eigen::Vector3d(-1, 0, 0)));
@@ -56,13 +56,13 @@ TEST(MapFiguresTest, MeanProbabilityAveragesOverTheVoxelsOfAClass) {
   const double in_a = document.map.voxel({0, 0, 0}).probability(1);
   const double in_b = document.map.voxel({1, 0, 0}).probability(1);
   ASSERT_LT(in_a, in_b);
-  EXPECT_DOUBLE_EQ(figuresOf(document).classes[1].mean_probability, (in_a + in_b) / 2);
+  EXPECT_DOUBLE_EQ(computeFigures(document).classes[1].mean_probability, (in_a + in_b) / 2);
 }
 
 TEST(MapFiguresTest, NamesClassesThatTheLabelSetDoesNotKnow) {
   MapDocument document = test::mapOf({{{0, 0, 0}, 4}});
   document.labels = LabelSet::occupancy();
-  const MapFigures figures = figuresOf(document);
+  const MapFigures figures = computeFigures(document);
   ASSERT_EQ(figures.classes.size(), 5u);
   EXPECT_EQ(figures.classes[4].name, "class 4");
   EXPECT_EQ(figures.classes[4].voxels, 1u);

@@ -43,7 +43,7 @@ class ReportTest : public testing::Test {
 
   fs::path folder_;
   MapDocument document_ = test::mapOf({{{0, 0, 0}, 1}});
-  MapFigures figures_ = figuresOf(document_);
+  MapFigures figures_ = computeFigures(document_);
 };
 
 TEST_F(ReportTest, WritesPagePicturesAndRecordAndNoOthers) {

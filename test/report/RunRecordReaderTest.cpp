@@ -23,20 +23,20 @@ using testing::HasSubstr;
 struct SampleRun {
   SampleRun() {
     record.up = {0.0, -1.0, 0.25};
-    record.label_rejects = {1, 20, 300, 4000};
+    record.labels = {5, 6, 7, 1, 20, 300, 4000};
     record.unused.points = 9;
     record.unused.rejected[0] = 8;
     record.unused.free_voxels = 7;
     record.camera_labels = test::sampleCameraLabels();
-    record.deskew = DeskewCounts{5, 6, 7};
-    record.registration = RegistrationRecord{100, 3, 12.5};
+    record.deskew = DeskewStatistics{5, 6, 7};
+    record.registration = RegistrationStatistics{100, 3, 12.5};
     record.pictures = {test::samplePicture(CameraPicture::Moment::First, "left"),
                        test::samplePicture(CameraPicture::Moment::Last, "left")};
     for (const RunScan& scan : record.scans) document.scans.push_back(scan.record);
   }
   std::string text() const { return toJson(record, figures()); }
   MapFigures figures() const {
-    MapFigures figures = figuresOf(document);
+    MapFigures figures = computeFigures(document);
     figures.memory_bytes = 123456;  // while it grew
     return figures;
   }
@@ -53,7 +53,7 @@ TEST(RunRecordReaderTest, ReadsWhatToJsonWrites) {
   EXPECT_EQ(read.unused.points, 9u);
   EXPECT_EQ(read.unused.rejected[0], 8u);
   EXPECT_EQ(read.unused.free_voxels, 7u);
-  EXPECT_EQ(read.label_rejects.unknown, 20u);
+  EXPECT_EQ(read.labels.unknown, 20u);
   EXPECT_EQ(read.parameters.front().help, run.record.parameters.front().help);
   EXPECT_EQ(read.scans.at(1).insert_ms, 30);
 }
@@ -104,10 +104,12 @@ TEST(RunRecordReaderTest, NamesWhatIsWrong) {
               HasSubstr("scans[1].insert_ms is no number"));
   EXPECT_THAT(changed([](json& j) { j["scans"].erase(0); }),
               HasSubstr("has 1 entries, but the map has 2 scans"));
-  EXPECT_THAT(changed([](json& j) { j["totals"]["points"] = 3; }),
-              HasSubstr("totals.points is 3, less than its parts"));
-  EXPECT_THAT(changed([](json& j) { j["totals"]["points"] = -3; }),
-              HasSubstr("totals.points is no count"));
+  EXPECT_THAT(changed([](json& j) { j["unused"]["points"] = -3; }),
+              HasSubstr("unused.points is no count"));
+  EXPECT_THAT(changed([](json& j) { j["labels"].erase("unknown"); }),
+              HasSubstr("labels.unknown is missing"));
+  EXPECT_THAT(changed([](json& j) { j["camera_labels"]["points"]["hidden"] = "x"; }),
+              HasSubstr("camera_labels.points.hidden is no count"));
   EXPECT_THAT(changed([](json& j) { j["up"] = {1, 2}; }), HasSubstr("up is no list of three"));
   EXPECT_THAT(changed([](json& j) { j["pictures"][0]["classes"] = {300}; }),
               HasSubstr("pictures[0].classes has an entry that is no class id"));

@@ -15,19 +15,19 @@ namespace {
 using nlohmann::json;
 
 json parsed(const RunRecord& record, const MapDocument& document = test::mapOf({})) {
-  return json::parse(toJson(record, figuresOf(document)));
+  return json::parse(toJson(record, computeFigures(document)));
 }
 
 TEST(RunRecordTest, EveryOptionIsAParameterOfItsOwnType) {
   Options options;
   options.resolution = 0.1;
-  options.rvfm = false;
+  options.see_csom.rvfm = false;
   options.method = Method::SBki;
   RunRecord record;
-  record.parameters = parametersOf(options);
+  record.parameters = toParameters(options);
 
   std::set<std::string> names;
-  visitOptions(options, [&](const char* name, const auto&, auto...) { names.insert(name); });
+  visitOptions(options, [&](const OptionInfo& option, const auto&) { names.insert(option.key); });
   const json parameters = parsed(record)["parameters"];
   EXPECT_EQ(parameters.size(), names.size());
   for (const std::string& name : names) EXPECT_TRUE(parameters.contains(name)) << name;
@@ -77,7 +77,7 @@ TEST(RunRecordTest, TotalsAddUp) {
 
 TEST(RunRecordTest, PointsDroppedBeforeTheMapSawThemAreRejectsToo) {
   RunRecord record = test::sampleRecord();
-  record.label_rejects = {1, 20, 300, 4000};
+  record.labels = {5, 6, 7, 1, 20, 300, 4000};
   record.unused.points = 7;
   record.unused.rejected[0] = 7;
   const json totals = parsed(record)["totals"];
@@ -209,7 +209,7 @@ TEST(RunRecordTest, WithoutANetworkTheAddedShareIsNull) {
 
 TEST(RunRecordTest, PointsThatCamerasDropAreRejectsByReason) {
   RunRecord record = test::sampleRecord();
-  record.label_rejects = {1, 20, 300, 4000};
+  record.labels = {5, 6, 7, 1, 20, 300, 4000};
   record.camera_labels = test::sampleCameraLabels();
   const auto check = [&](std::size_t unseen) {
     const json totals = parsed(record)["totals"];
@@ -228,10 +228,9 @@ TEST(RunRecordTest, PointsThatCamerasDropAreRejectsByReason) {
 
 TEST(RunRecordTest, PointsThatAreKeptAsUnlabelledAreNoRejects) {
   RunRecord record = test::sampleRecord();
-  record.label_rejects = {1, 20, 300, 4000};
+  record.labels = {5, 6, 7, 1, 20, 300, 4000};
   record.camera_labels = test::sampleCameraLabels();
   record.camera_labels->points.kept_unlabelled = 11'750;  // these the scans count
-  record.kept_unlabelled = 17;
   record.no_returns = 18;
   const json totals = parsed(record)["totals"];
   EXPECT_EQ(totals["rejects"]["unknown-label"], 20);
@@ -240,14 +239,14 @@ TEST(RunRecordTest, PointsThatAreKeptAsUnlabelledAreNoRejects) {
   EXPECT_EQ(totals["rejects"]["low-confidence"], 250);
   EXPECT_EQ(totals["outside_view"], 0);
   EXPECT_EQ(totals["points"], 2000 + 4321 + 250);
-  EXPECT_EQ(totals["kept_unlabelled"], 17);
+  EXPECT_EQ(totals["kept_unlabelled"], 6 + 7);
   EXPECT_EQ(totals["no_returns"], 18);
 }
 
 TEST(RunRecordTest, TellsAboutDeskewingAndRegistration) {
   RunRecord record = test::sampleRecord();
-  record.deskew = DeskewCounts{5, 6, 7};
-  record.registration = RegistrationRecord{100, 3, 12.5};
+  record.deskew = DeskewStatistics{5, 6, 7};
+  record.registration = RegistrationStatistics{100, 3, 12.5};
   const json run = parsed(record);
   EXPECT_EQ(run["deskew"], json::parse(R"({"deskewed": 5, "not_needed": 6, "not_possible": 7})"));
   EXPECT_EQ(run["registration"], json::parse(R"({"scans": 100, "doubtful": 3, "seconds": 12.5})"));

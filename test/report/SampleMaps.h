@@ -54,7 +54,7 @@ inline RunRecord sampleRecord() {
   record.command = "csom map 'my drive.rawlog' -o out";
   record.inputs = {"data/my drive.rawlog"};
   record.config_file = "config/drive.ini";
-  record.parameters = parametersOf(Options{});
+  record.parameters = toParameters(Options{});
   record.pose_source = "robot-pose:GT";
   record.label_set = "sample";
   record.observations_read = 7;
@@ -79,10 +79,10 @@ inline RunRecord sampleRecord() {
 }
 
 /// Two cameras, points of every fate.
-inline CameraLabels sampleCameraLabels() {
-  CameraLabels labels;
-  labels.cameras = {{"left", "network", {20, 15, 12, 3, 4, 1}},
-                    {"right", "label_image", {10, 9, 0, 0, 1, 0}}};
+inline CameraStatistics sampleCameraLabels() {
+  CameraStatistics labels;
+  labels.cameras = {{"left", "network", {20, 15, 12, 3, 1}, {}},
+                    {"right", "label_image", {10, 9, 0, 0, 0}, {}}};
   labels.scans = {18, 4, 1};
   labels.points.labelled = 6000;
   labels.points.outside_view = 10'000;

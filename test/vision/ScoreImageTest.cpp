@@ -28,13 +28,13 @@ cv::Mat cellOf(const std::vector<float>& logits) {
 }
 
 std::vector<int> distancesOfCell(const std::vector<float>& logits) {
-  const cv::Mat distances = ScoreImage::distancesOf(cellOf(logits));
+  const cv::Mat distances = ScoreImage::computeDistances(cellOf(logits));
   return {distances.begin<std::uint8_t>(), distances.end<std::uint8_t>()};
 }
 
 /// An image of one pixel.
 ScoreImage pixelOf(const std::vector<float>& logits, const std::vector<ClassId>& classes) {
-  return ScoreImage(ScoreImage::distancesOf(cellOf(logits)), classes, {1, 1}, {});
+  return ScoreImage(ScoreImage::computeDistances(cellOf(logits)), classes, {1, 1}, {});
 }
 
 /// Channels that change slowly from cell to cell, or not at all slowly.
@@ -51,7 +51,7 @@ cv::Mat randomDistances(int channels, cv::Size grid, bool smooth, unsigned seed)
                    : static_cast<float>(random() % 64) / 16;
     }
   }
-  return ScoreImage::distancesOf(logits);
+  return ScoreImage::computeDistances(logits);
 }
 
 TEST(ScoreDistances, AreSixteenthsToTheBestChannel) {
@@ -81,15 +81,15 @@ TEST(ScoreDistances, AreStackedByChannel) {
   cv::Mat logits(3, size, CV_32FC1, cv::Scalar(0));
   logits.at<float>(1, 0, 2) = 1;
   logits.at<float>(0, 1, 0) = 2;
-  const cv::Mat distances = ScoreImage::distancesOf(logits);
+  const cv::Mat distances = ScoreImage::computeDistances(logits);
   const std::vector<int> all(distances.begin<std::uint8_t>(), distances.end<std::uint8_t>());
   EXPECT_THAT(all, ElementsAre(0, 0, 16, 0, 0, 0, 0, 0, 0, 32, 0, 0));
 }
 
 TEST(ScoreDistances, NeedThreeDimensionsOfFloats) {
-  EXPECT_THROW(ScoreImage::distancesOf(cv::Mat::zeros(2, 2, CV_32FC1)), std::invalid_argument);
+  EXPECT_THROW(ScoreImage::computeDistances(cv::Mat::zeros(2, 2, CV_32FC1)), std::invalid_argument);
   const int size[] = {2, 2, 2};
-  EXPECT_THROW(ScoreImage::distancesOf(cv::Mat(3, size, CV_64FC1)), std::invalid_argument);
+  EXPECT_THROW(ScoreImage::computeDistances(cv::Mat(3, size, CV_64FC1)), std::invalid_argument);
 }
 
 TEST(ScoreImage, DistributionIsTheSoftmax) {

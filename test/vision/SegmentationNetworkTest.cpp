@@ -65,7 +65,7 @@ class SegmentationNetworkTest : public testing::Test {
     return SegmentationNetwork(description).segment({image}, sameNumber).at(0);
   }
 
-  static cv::Mat distancesOf(const SemanticImage& image) {
+  static cv::Mat computeDistances(const SemanticImage& image) {
     return dynamic_cast<const ScoreImage&>(image).distances();
   }
 
@@ -107,12 +107,12 @@ TEST_F(SegmentationNetworkTest, ImagesMayBePartsOfLargerOnes) {
 
 TEST_F(SegmentationNetworkTest, ProbabilitiesSayWhatTheirLogitsSay) {
   const cv::Mat image = randomImage(kSize, CV_8UC3, 3);
-  const cv::Mat from_logits = distancesOf(*segmentOne(describe(colorModel(kSize)), image));
+  const cv::Mat from_logits = computeDistances(*segmentOne(describe(colorModel(kSize)), image));
   TinyModel model = colorModel(kSize);
   model.head = Head::Softmax;
   const auto labels = segmentOne(describe(model, Output::Probabilities), image);
   expectColorScores(*labels, image);
-  EXPECT_LE(cv::norm(distancesOf(*labels), from_logits, cv::NORM_INF), 1);
+  EXPECT_LE(cv::norm(computeDistances(*labels), from_logits, cv::NORM_INF), 1);
 }
 
 TEST_F(SegmentationNetworkTest, IndexIsTheBestChannel) {
@@ -280,7 +280,7 @@ TEST_F(SegmentationNetworkTest, LetterboxIsFilledWithTheMean) {
   description.mean = {0.2, 0, 0};
   const auto labels = segmentOne(description, cv::Mat(1, 4, CV_8UC1, cv::Scalar(0.6 * 255)));
   const double logit = 8 * (0.6 - 0.2) / 2;
-  const cv::Mat distances = distancesOf(*labels);
+  const cv::Mat distances = computeDistances(*labels);
   ASSERT_EQ(distances.size(), cv::Size(2, 4));
   EXPECT_EQ(distances.at<std::uint8_t>(0, 0), std::lround(16 * logit));
   EXPECT_EQ(distances.at<std::uint8_t>(2, 0), 0);
@@ -303,7 +303,8 @@ TEST_F(SegmentationNetworkTest, BatchesSayWhatSingleImagesSay) {
   for (std::size_t i = 0; i < images.size(); ++i) {
     EXPECT_EQ(labels[i]->size(), images[i].size());
     const auto expected = alone.segment({images[i]}, sameNumber).at(0);
-    EXPECT_EQ(cv::norm(distancesOf(*labels[i]), distancesOf(*expected), cv::NORM_INF), 0) << i;
+    EXPECT_EQ(cv::norm(computeDistances(*labels[i]), computeDistances(*expected), cv::NORM_INF), 0)
+        << i;
   }
   EXPECT_TRUE(together.segment({}, sameNumber).empty());
 }
@@ -313,9 +314,9 @@ TEST_F(SegmentationNetworkTest, ThreadsDoNotChangeTheScores) {
   SegmentationNetwork network(describe(colorModel({256, 256})));
   const int threads = cv::getNumThreads();
   cv::setNumThreads(1);
-  const cv::Mat single = distancesOf(*network.segment({image}, sameNumber).at(0));
+  const cv::Mat single = computeDistances(*network.segment({image}, sameNumber).at(0));
   cv::setNumThreads(2);
-  const cv::Mat two = distancesOf(*network.segment({image}, sameNumber).at(0));
+  const cv::Mat two = computeDistances(*network.segment({image}, sameNumber).at(0));
   cv::setNumThreads(threads);
   EXPECT_EQ(cv::norm(single, two, cv::NORM_INF), 0);
 }

@@ -43,7 +43,7 @@ class StreetImage : public testing::Test {
     return best.id == kUnknownPixel ? "unknown" : labels_.classes().at(best.id).name;
   }
 
-  static cv::Mat distancesOf(const SemanticImage& image) {
+  static cv::Mat computeDistances(const SemanticImage& image) {
     return dynamic_cast<const ScoreImage&>(image).distances();
   }
 
@@ -78,14 +78,14 @@ TEST_F(StreetImage, HasTheSameScoresWithAnyNumberOfThreadsAndFromTheCache) {
   cv::setNumThreads(2);
   const auto two = network.segment({image_}, classOf()).at(0);
   cv::setNumThreads(threads);
-  EXPECT_EQ(cv::norm(distancesOf(*single), distancesOf(*two), cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(computeDistances(*single), computeDistances(*two), cv::NORM_INF), 0);
 
   const TempFolder folder;
   const LabelCache cache(folder.path(), description_);
   cache.store(image_, *single);
   const auto found = cache.find(image_, classOf());
   ASSERT_NE(found, nullptr);
-  EXPECT_EQ(cv::norm(distancesOf(*single), distancesOf(*found), cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(computeDistances(*single), computeDistances(*found), cv::NORM_INF), 0);
   EXPECT_EQ(cv::norm(single->classes(), found->classes(), cv::NORM_INF), 0);
 }
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <csom/core/FreeSpaceRays.h>
-#include <csom/core/KernelInference.h>
 #include <csom/core/ScanPreparation.h>
 #include <csom/core/SemanticMap.h>
 
@@ -10,8 +8,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "Parallel.h"
-#include "VoxelTraversal.h"
+#include "inference/FreeSpaceRays.h"
+#include "inference/Inference.h"
+#include "util/Parallel.h"
+#include "util/VoxelTraversal.h"
 
 namespace csom {
 
@@ -51,8 +51,8 @@ ScanReport SemanticMap::insert(const Scan& scan) {
     Stopwatch watch;
     const PreparedScan prepared = prepareScan(scan, options_, report);
     report.prepare_ms = watch.lap();
-    const ScanIncrements kernel_mass = inferIncrements(prepared, options_, report);
-    const ScanIncrements free_space = castFreeSpace(prepared, options_, report);
+    const ScanIncrements kernel_mass = detail::inferIncrements(prepared, options_, report);
+    const ScanIncrements free_space = detail::castFreeSpace(prepared, options_, report);
     report.infer_ms = watch.lap();
     store_.add(kernel_mass, options_.threads);
     store_.add(free_space, options_.threads);

@@ -28,7 +28,7 @@ bool contains(const VoxelBox& box, const VoxelIndex& v) {
          box.min.z <= v.z && v.z <= box.max.z;
 }
 
-VoxelBox boxOf(const VoxelSelection& everything, const VoxelSelection& voxels) {
+VoxelBox computeBox(const VoxelSelection& everything, const VoxelSelection& voxels) {
   if (!voxels.filter().box) {
     const auto known = everything.resampledBounds();
     if (!known) throw ConfigError("the map is empty: there is nothing to export");
@@ -56,7 +56,8 @@ void requireAffordable(const VoxelBox& box) {
   if (longest >= (1 << 20) || volume(box) > kMaxVoxels)
     throw ConfigError(
         "a distance field of this size, with what lies within the maximum distance around it, does "
-        "not fit into memory; choose a smaller --box or --max-distance");
+        "not fit into memory; choose a smaller box or distance",
+        {"box", "max-distance"});
 }
 
 /// Boxes that make up `box`, as large as they may be with `margin` around them. Each costs all of
@@ -91,7 +92,7 @@ DistanceField::DistanceField(const VoxelSelection& voxels, double max_distance)
   VoxelFilter all;
   all.free_voxels = true;
   const VoxelSelection everything(voxels.map(), all, voxels.frame());
-  box_ = boxOf(everything, voxels);
+  box_ = computeBox(everything, voxels);
   const auto margin = static_cast<std::int32_t>(reach);
   const VoxelBox around = grown(box_, margin);
   requireAffordable(around);

@@ -19,9 +19,11 @@ void checkSinglePrecision(const Eigen::Vector3d& point, double resolution) {
   const double farthest = point.cwiseAbs().maxCoeff();
   // Rounding to 24 bits.
   if (std::ldexp(farthest, -24) > resolution / 2)
-    throw ConfigError("a voxel lies " + toString(std::round(farthest)) +
-                      " m from the origin, too far for the single precision of this format; move "
-                      "it nearer with --frame, or export to ply");
+    throw ConfigError(
+        "a voxel lies " + toString(std::round(farthest)) +
+            " m from the origin, too far for the single precision of this format; move "
+            "it nearer, or export to ply",
+        {"frame"});
 }
 
 void requireRegularFile(const OutputFile& file, const std::string& target) {

@@ -41,8 +41,8 @@ std::unique_ptr<aiMaterial> materialOf(const LabelClass& c) {
   return material;
 }
 
-std::unique_ptr<aiMesh> meshOf(const std::vector<SurfaceRectangle>& rectangles,
-                               const std::string& name, unsigned material, double resolution) {
+std::unique_ptr<aiMesh> makeMesh(const std::vector<SurfaceRectangle>& rectangles,
+                                 const std::string& name, unsigned material, double resolution) {
   auto mesh = std::make_unique<aiMesh>();
   mesh->mName = aiString(name);
   mesh->mMaterialIndex = material;
@@ -68,8 +68,8 @@ std::unique_ptr<aiMesh> meshOf(const std::vector<SurfaceRectangle>& rectangles,
   return mesh;
 }
 
-std::unique_ptr<aiScene> sceneOf(const RectanglesOfClass& rectangles, const LabelSet& labels,
-                                 double resolution) {
+std::unique_ptr<aiScene> makeScene(const RectanglesOfClass& rectangles, const LabelSet& labels,
+                                   double resolution) {
   auto scene = std::make_unique<aiScene>();
   const auto count = static_cast<unsigned>(rectangles.size());
   scene->mNumMeshes = scene->mNumMaterials = count;
@@ -83,7 +83,7 @@ std::unique_ptr<aiScene> sceneOf(const RectanglesOfClass& rectangles, const Labe
   for (const auto& [class_id, of_class] : rectangles) {
     const LabelClass& c = labels.at(class_id);
     scene->mMaterials[i] = materialOf(c).release();
-    scene->mMeshes[i] = meshOf(of_class, c.name, i, resolution).release();
+    scene->mMeshes[i] = makeMesh(of_class, c.name, i, resolution).release();
     nodes.push_back(new aiNode(c.name));
     nodes.back()->mNumMeshes = 1;
     nodes.back()->mMeshes = new unsigned[1]{i};
@@ -111,7 +111,7 @@ std::size_t writeGlb(const VoxelSelection& voxels, const LabelSet& labels,
   }
   // In memory, as Assimp does not tell when a file cannot be written.
   Assimp::Exporter exporter;
-  const auto scene = sceneOf(rectangles, labels, voxels.resolution());
+  const auto scene = makeScene(rectangles, labels, voxels.resolution());
   const aiExportDataBlob* blob = exporter.ExportToBlob(scene.get(), "glb2");
   if (blob == nullptr)
     throw FileError(file, std::string("cannot be made: ") + exporter.GetErrorString());

@@ -21,8 +21,9 @@ void checkOptions(const NavigationOptions& options) {
     throw ConfigError("the obstacle band must begin below its end");
   if (!options.band && options.traversable.empty())
     throw ConfigError(
-        "the ground would be an obstacle: name the classes to drive on with --traversable, or the "
-        "heights at which obstacles count with --obstacle-band");
+        "the ground would be an obstacle: name the classes to drive on, or the heights at which "
+        "obstacles count",
+        {"traversable", "obstacle-band"});
 }
 
 }  // namespace
@@ -67,7 +68,8 @@ void NavigationGrid::measure(const VoxelSelection& voxels, const NavigationOptio
   const std::int64_t height = std::int64_t{last_y} - first_y_ + 1;
   if (width * height > kMaxCells)
     throw ConfigError("the grid would have " + std::to_string(width) + " x " +
-                      std::to_string(height) + " cells; choose a part of the map with --box");
+                          std::to_string(height) + " cells; choose a part of the map",
+                      {"box"});
   width_ = static_cast<int>(width);
   height_ = static_cast<int>(height);
   cells_.resize(static_cast<std::size_t>(width * height));
@@ -94,8 +96,10 @@ void NavigationGrid::spreadGround(const NavigationOptions& options) {
   if (border.empty()) {
     if (!options.band)
       throw ConfigError(
-          "no column of the map stands on a traversable class; name others with --traversable, or "
-          "the heights at which obstacles count with --obstacle-band");
+          "no column of the map stands on a traversable class; name others, or the heights at "
+          "which "
+          "obstacles count",
+          {"traversable", "obstacle-band"});
     // The last voxel below the band.
     const double below = std::ceil(options.band->low / resolution_ - 0.5) - 1;
     const auto ground =

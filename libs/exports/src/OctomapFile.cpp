@@ -23,8 +23,8 @@ octomap::OcTreeKey keyOf(const VoxelIndex& v) {
     if (index < -kReach || index >= kReach)
       throw ConfigError(
           "an octree of OctoMap reaches 32768 voxels from the origin, and the map has voxels "
-          "beyond; "
-          "cut it with --box or move it with --frame");
+          "beyond; cut it or move it",
+          {"box", "frame"});
     return static_cast<octomap::key_type>(index + kReach);
   };
   return {part(v.x), part(v.y), part(v.z)};

@@ -47,7 +47,7 @@ std::int32_t& component(VoxelIndex& v, int axis) {
   return axis % 3 == 0 ? v.x : axis % 3 == 1 ? v.y : v.z;
 }
 
-std::vector<Row> facesOf(const ClassGrid& grid, int axis, bool positive) {
+std::vector<Row> makeFaces(const ClassGrid& grid, int axis, bool positive) {
   std::vector<Row> faces;
   grid.forEach([&](VoxelIndex v, ClassId k) {
     VoxelIndex neighbour = v;
@@ -128,7 +128,7 @@ std::vector<SurfaceRectangle> voxelSurface(const VoxelSelection& voxels) {
   std::vector<SurfaceRectangle> rectangles;
   for (int axis = 0; axis < 3; ++axis)
     for (const bool positive : {false, true})
-      mergeRows(mergedAlongRows(facesOf(grid, axis, positive)), axis, positive, rectangles);
+      mergeRows(mergedAlongRows(makeFaces(grid, axis, positive)), axis, positive, rectangles);
   return rectangles;
 }
 

@@ -36,21 +36,18 @@ void ChunkWriter::write(const ChunkIndex& index, const Chunk& chunk, MapStore::V
 }
 
 ChunkRef ChunkWriter::added(const ChunkIndex& index, const Chunk& chunk, std::uint64_t hash) {
-  try {
+  ChunkRef sum;
+  const std::string place = "table chunks, chunk (" + std::to_string(index.x) + ", " +
+                            std::to_string(index.y) + ", " + std::to_string(index.z) + ")";
+  explainedAt(database_.shownName(), place, [&] {
     const std::string_view record =
         codec_.decompress(select_.blob(2), maxRecordSize(number_of_classes_));
     if (chunkHash(index, record.data(), record.size()) != hash)
       throw std::runtime_error("its hash does not match");
     const ChunkRef base = Chunk::fromRecord(record.data(), record.size(), number_of_classes_);
-    return Chunk::sum(base.get(), chunk.toIncrements());
-  } catch (const FileError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    throw FileError(database_.shownName(), "table chunks, chunk (" + std::to_string(index.x) +
-                                               ", " + std::to_string(index.y) + ", " +
-                                               std::to_string(index.z) + "): " + error.what() +
-                                               kDamaged);
-  }
+    sum = Chunk::sum(base.get(), chunk.toIncrements());
+  });
+  return sum;
 }
 
 void ChunkWriter::insert(const ChunkIndex& index, const Chunk& chunk) {

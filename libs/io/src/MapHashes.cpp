@@ -37,7 +37,7 @@ std::uint64_t Hasher::value() const {
   return XXH3_64bits_digest(state_.get());
 }
 
-std::uint64_t hashOf(const void* bytes, std::size_t size) {
+std::uint64_t computeHash(const void* bytes, std::size_t size) {
   return XXH3_64bits(bytes, size);
 }
 
@@ -78,10 +78,10 @@ std::uint64_t scanHash(std::int64_t id, const ScanRecord& scan) {
 }
 
 std::uint64_t resumeHash(const std::string& key, std::string_view value) {
-  return XXH3_64bits_withSeed(value.data(), value.size(), hashOf(key.data(), key.size()));
+  return XXH3_64bits_withSeed(value.data(), value.size(), computeHash(key.data(), key.size()));
 }
 
-std::string digestOf(const Options& options, std::uint64_t sum_of_chunk_hashes) {
+std::string computeDigest(const Options& options, std::uint64_t sum_of_chunk_hashes) {
   Hasher hasher;
   hasher.add(options.resolution);
   hasher.add(static_cast<std::int32_t>(options.number_of_classes));
@@ -161,8 +161,8 @@ Description parseDescription(std::string_view bytes) {
   return description;
 }
 
-std::string checksumOf(const std::string& description, std::uint64_t sum_of_scan_hashes,
-                       std::size_t scans) {
+std::string computeChecksum(const std::string& description, std::uint64_t sum_of_scan_hashes,
+                            std::size_t scans) {
   Hasher hasher;
   hasher.add(description);
   hasher.add(sum_of_scan_hashes);
@@ -186,7 +186,7 @@ std::string mapDigest(const SemanticMap& map) {
   map.chunks().forEach([&](const ChunkIndex& index, const Chunk& chunk) {
     sum += detail::chunkHash(index, chunk.record(), chunk.recordSize());
   });
-  return detail::digestOf(map.options(), sum);
+  return detail::computeDigest(map.options(), sum);
 }
 
 }  // namespace csom

@@ -35,7 +35,7 @@ class Hasher {
 };
 
 /// XXH3 (64 bits) of the bytes.
-std::uint64_t hashOf(const void* bytes, std::size_t size);
+std::uint64_t computeHash(const void* bytes, std::size_t size);
 /// 16 hexadecimal digits.
 std::string hexadecimal(std::uint64_t hash);
 
@@ -49,7 +49,7 @@ std::uint64_t resumeHash(const std::string& key, std::string_view value);
 
 /// The digest of a map whose chunks have hashes of this sum. A sum of hashes depends on no order
 /// and is kept up to date by the difference of what changes.
-std::string digestOf(const Options& options, std::uint64_t sum_of_chunk_hashes);
+std::string computeDigest(const Options& options, std::uint64_t sum_of_chunk_hashes);
 
 /// The rows of a table of two columns.
 using Texts = std::map<std::string, std::string>;
@@ -66,8 +66,8 @@ struct Description {
 /// The inverse of describe(). Throws std::runtime_error if the bytes are no such description.
 Description parseDescription(std::string_view bytes);
 
-std::string checksumOf(const std::string& description, std::uint64_t sum_of_scan_hashes,
-                       std::size_t scans);
+std::string computeChecksum(const std::string& description, std::uint64_t sum_of_scan_hashes,
+                            std::size_t scans);
 
 /// What a file says of itself as a whole.
 struct Totals {

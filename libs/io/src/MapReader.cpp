@@ -69,15 +69,15 @@ MapDocument loadMap(const std::string& file) {
 
   const std::string digest = take(document.meta, detail::kDigestKey);
   const std::string checksum = take(document.meta, detail::kChecksumKey);
-  const std::string found =
-      version >= 2 ? detail::digestOf(options, chunks) : detail::version1::digestOf(document.map);
+  const std::string found = version >= 2 ? detail::computeDigest(options, chunks)
+                                         : detail::version1::computeDigest(document.map);
   if (found != digest)
     throw FileError(file, "its chunks have digest " + found + ", table meta says '" + digest + "'" +
                               detail::kDamaged);
   const std::string found_checksum =
-      version >= 2 ? detail::checksumOf(detail::describe(option_texts, yaml, document.meta), scans,
-                                        document.scans.size())
-                   : detail::version1::checksumOf(document, option_texts);
+      version >= 2 ? detail::computeChecksum(detail::describe(option_texts, yaml, document.meta),
+                                             scans, document.scans.size())
+                   : detail::version1::computeChecksum(document, option_texts);
   if (found_checksum != checksum)
     throw FileError(file, std::string("its options, label set, scans or meta have been changed: "
                                       "their checksum is not '") +

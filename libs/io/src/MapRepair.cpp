@@ -29,7 +29,7 @@ using detail::TableRow;
 using Place = std::tuple<std::int32_t, std::int32_t, std::int32_t>;
 
 /// The longest row: a chunk of 256 classes that zstd could not make smaller, and its columns.
-constexpr std::size_t kMostBytes = 1U << 20U;
+constexpr std::size_t kMaxBytes = 1U << 20U;
 constexpr std::size_t kPlacesShown = 10;
 
 /// The bytes of a row if it is `(INTEGER hash, BLOB bytes)` and the hash is right.
@@ -38,7 +38,7 @@ std::optional<detail::Description> asDescription(const TableRow& row) {
       row[1].kind != RowValue::Kind::Bytes)
     return std::nullopt;
   const std::string& bytes = row[1].bytes;
-  if (static_cast<std::int64_t>(detail::hashOf(bytes.data(), bytes.size())) != row[0].integer)
+  if (static_cast<std::int64_t>(detail::computeHash(bytes.data(), bytes.size())) != row[0].integer)
     return std::nullopt;
   try {
     return detail::parseDescription(bytes);
@@ -113,7 +113,7 @@ class ChunkParser {
       if (*axes[i] != row[i].integer) return std::nullopt;
     }
     try {
-      chunk.record = codec_.decompress(row[4].bytes, kMostBytes);
+      chunk.record = codec_.decompress(row[4].bytes, kMaxBytes);
     } catch (const std::runtime_error&) {
       return std::nullopt;
     }
@@ -181,7 +181,7 @@ struct FoundRows {
 FoundRows findRows(const std::string& file) {
   FoundRows found;
   ChunkParser parser;
-  detail::forEachTableRow(file, kMostBytes, [&](std::int64_t id, const TableRow& row) {
+  detail::forEachTableRow(file, kMaxBytes, [&](std::int64_t id, const TableRow& row) {
     if (auto chunk = parser.parse(row)) {
       const Place place{chunk->index.x, chunk->index.y, chunk->index.z};
       const auto [at, added] = found.chunks.emplace(place, chunk->record);

@@ -24,7 +24,7 @@ std::string scanColumns() {
   return columns;
 }
 
-std::map<std::string, std::string> tablesOf(std::int64_t version) {
+std::map<std::string, std::string> makeTables(std::int64_t version) {
   constexpr char kTexts[] = " (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID";
   std::map<std::string, std::string> tables{
       {"meta", std::string("CREATE TABLE meta") + kTexts},
@@ -56,7 +56,7 @@ std::map<std::string, std::string> tablesOf(std::int64_t version) {
 std::string createTables() {
   std::string statements = "PRAGMA application_id = " + std::to_string(kApplicationId) +
                            "; PRAGMA user_version = " + std::to_string(kFormatVersion) + "; ";
-  for (const auto& [name, statement] : tablesOf(kFormatVersion)) statements += statement + "; ";
+  for (const auto& [name, statement] : makeTables(kFormatVersion)) statements += statement + "; ";
   return statements;
 }
 

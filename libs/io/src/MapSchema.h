@@ -40,6 +40,6 @@ std::string createTables();
 /// The tables of a file of this version, each with the statement that made it: all that its schema
 /// may hold, but for the index of the primary key of `chunks`. A file is read if its schema is this
 /// one to the letter, so a statement that has been released stays as it is.
-std::map<std::string, std::string> tablesOf(std::int64_t version);
+std::map<std::string, std::string> makeTables(std::int64_t version);
 
 }  // namespace csom::detail

@@ -144,7 +144,7 @@ class MapStore::Content {
           scan_writer.write(static_cast<std::int64_t>(sums.scan_count) + 1, scans[sums.scan_count]);
     writeState(database_, state);
     detail::writeTotals(database_, {sums.chunk_count, sums.scan_count,
-                                    detail::digestOf(options_, sums.chunks), checksum(sums)});
+                                    detail::computeDigest(options_, sums.chunks), checksum(sums)});
     transaction.commit();
     sums_ = sums;
     state_ = state;
@@ -164,8 +164,8 @@ class MapStore::Content {
       finished.erase(detail::kStateKey);
       const std::string description = detail::writeDescription(copy, options_, labels_, finished);
       detail::writeTotals(
-          copy, {sums_.chunk_count, sums_.scan_count, detail::digestOf(options_, sums_.chunks),
-                 detail::checksumOf(description, sums_.scans, sums_.scan_count)});
+          copy, {sums_.chunk_count, sums_.scan_count, detail::computeDigest(options_, sums_.chunks),
+                 detail::computeChecksum(description, sums_.scans, sums_.scan_count)});
       copy.execute("COMMIT");
       copy.close();
     }
@@ -216,8 +216,8 @@ class MapStore::Content {
   }
 
   std::string checksum(const Sums& sums) const {
-    return detail::checksumOf(detail::describe(option_texts_, yaml_, meta_), sums.scans,
-                              sums.scan_count);
+    return detail::computeChecksum(detail::describe(option_texts_, yaml_, meta_), sums.scans,
+                                   sums.scan_count);
   }
 
   void readSums() {
@@ -225,7 +225,7 @@ class MapStore::Content {
       sums_.chunks += static_cast<std::uint64_t>(rows.integer(0));
     for (Statement rows(database_, "SELECT hash FROM scans"); rows.step(); ++sums_.scan_count)
       sums_.scans += static_cast<std::uint64_t>(rows.integer(0));
-    if (detail::digestOf(options_, sums_.chunks) != meta_[detail::kDigestKey] ||
+    if (detail::computeDigest(options_, sums_.chunks) != meta_[detail::kDigestKey] ||
         checksum(sums_) != meta_[detail::kChecksumKey])
       throw FileError(
           database_.shownName(),
@@ -263,8 +263,8 @@ std::unique_ptr<MapStore> MapStore::create(const std::string& file, const MapDoc
     const Options& options = start.map.options();
     const std::string description = detail::writeDescription(database, options, start.labels, meta);
     writeState(database, state);
-    detail::writeTotals(
-        database, {0, 0, detail::digestOf(options, 0), detail::checksumOf(description, 0, 0)});
+    detail::writeTotals(database, {0, 0, detail::computeDigest(options, 0),
+                                   detail::computeChecksum(description, 0, 0)});
     database.execute("COMMIT");
     database.close();
   }
@@ -318,7 +318,7 @@ std::size_t MapStore::chunkCount() const {
   return content_->sums().chunk_count;
 }
 std::string MapStore::digest() const {
-  return detail::digestOf(content_->options(), content_->sums().chunks);
+  return detail::computeDigest(content_->options(), content_->sums().chunks);
 }
 std::vector<ScanRecord> MapStore::loadScans() const {
   return content_->loadScans();

@@ -22,7 +22,7 @@ std::int64_t readPragma(const Database& database, const std::string& name) {
 /// triggers change what they are not asked to. It must be the one that we write.
 void checkTables(const Database& database, std::int64_t version) {
   const std::string& file = database.shownName();
-  std::map<std::string, std::string> missing = tablesOf(version);
+  std::map<std::string, std::string> missing = makeTables(version);
   Statement objects(database,
                     "SELECT type, name, tbl_name, rootpage, coalesce(sql, '') FROM "
                     "sqlite_master");
@@ -119,15 +119,15 @@ Options optionsOf(const Texts& texts, const std::string& shown_name) {
   Texts unread = texts;
   Options options;
   try {
-    visitOptions(options, [&](const char* name, auto& field, const char*, const char*) {
-      const auto it = unread.find(name);
+    visitOptions(options, [&](const OptionInfo& option, auto& field) {
+      const auto it = unread.find(option.key);
       if (it == unread.end()) {
         // Options that came later have defaults under which older maps mean what they meant.
-        if (essentialOptions().count(name) > 0)
-          throw OptionError(std::string(name) + " is missing");
+        if (essentialOptions().count(option.key) > 0)
+          throw OptionError(std::string(option.key) + " is missing");
         return;
       }
-      parse(name, it->second, field);
+      parse(option.key, it->second, field);
       unread.erase(it);
     });
     if (!unread.empty()) throw OptionError("unknown option " + unread.begin()->first);
@@ -149,8 +149,8 @@ LabelSet labelsOf(const std::string& yaml, int number_of_classes, const std::str
 
 Texts textsOf(const Options& options) {
   Texts texts;
-  visitOptions(options, [&](const char* name, const auto& field, const char*, const char*) {
-    texts[name] = toString(field);
+  visitOptions(options, [&](const OptionInfo& option, const auto& field) {
+    texts[option.key] = toString(field);
   });
   return texts;
 }
@@ -177,7 +177,7 @@ std::string writeDescription(const Database& database, const Options& options,
   Statement(database, "INSERT INTO labels VALUES (?)").bind(1, yaml).run();
   std::string bytes = describe(textsOf(options), yaml, of_document);
   Statement insert(database, "INSERT INTO description VALUES (?, ?)");
-  insert.bind(1, static_cast<std::int64_t>(hashOf(bytes.data(), bytes.size())));
+  insert.bind(1, static_cast<std::int64_t>(computeHash(bytes.data(), bytes.size())));
   insert.bindBlob(2, bytes.data(), bytes.size()).run();
   return bytes;
 }
@@ -272,14 +272,8 @@ bool ChunkReader::next() {
 }
 
 void ChunkReader::read() {
-  try {
-    parse();
-  } catch (const FileError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    throw FileError(database_.shownName(), "table chunks, row " + std::to_string(row_.row()) +
-                                               ": " + error.what() + kDamaged);
-  }
+  explainedAt(database_.shownName(), "table chunks, row " + std::to_string(row_.row()),
+              [this] { parse(); });
 }
 
 void ChunkReader::parse() {
@@ -287,7 +281,7 @@ void ChunkReader::parse() {
             chunkCoordinate(row_.integer(2))};
   record_ = codec_.decompress(row_.blob(4), max_size_);
   const std::uint64_t hash = version_ >= 2 ? chunkHash(index_, record_.data(), record_.size())
-                                           : hashOf(record_.data(), record_.size());
+                                           : computeHash(record_.data(), record_.size());
   if (static_cast<std::int64_t>(hash) != row_.integer(3))
     throw std::runtime_error("its hash does not match");
   sum_ += hash;

@@ -29,6 +29,19 @@ Options optionsOf(const Texts& texts, const std::string& shown_name);
 LabelSet labelsOf(const std::string& yaml, int number_of_classes, const std::string& shown_name);
 Texts textsOf(const Options& options);
 
+/// Calls action(), and gives what it throws a place in a file, unless it is an Error, which has
+/// one.
+template <class Action>
+void explainedAt(const std::string& file, const std::string& place, const Action& action) {
+  try {
+    action();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw FileError(file, place + ": " + error.what() + kDamaged);
+  }
+}
+
 /// Writes options, labels and meta with the copy of them that repair reads; `meta` replaces what
 /// there is. Returns the bytes of describe().
 std::string writeDescription(const Database& database, const Options& options,

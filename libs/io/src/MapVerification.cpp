@@ -20,7 +20,7 @@ class Faults {
  public:
   explicit Faults(MapVerification& result) : result_(result) {}
   void add(const std::string& fault) {
-    if (result_.faults.size() < MapVerification::kMostFaults)
+    if (result_.faults.size() < MapVerification::kMaxFaults)
       result_.faults.push_back(fault);
     else
       ++more_;
@@ -90,7 +90,7 @@ void checkDescription(const Database& database, const std::string& description) 
   detail::Statement rows(database, "SELECT hash, bytes FROM description");
   if (!rows.step() || rows.blob(1) != description ||
       rows.integer(0) !=
-          static_cast<std::int64_t>(detail::hashOf(description.data(), description.size())))
+          static_cast<std::int64_t>(detail::computeHash(description.data(), description.size())))
     throw FileError(
         database.shownName(),
         std::string("table description is no copy of options, labels and meta") + detail::kDamaged);
@@ -116,7 +116,7 @@ void checkTables(const Database& database, Faults& faults, MapVerification& resu
   result.finished = meta.count(detail::kStateKey) == 0;
   const std::uint64_t scans = checkScans(database, faults, result);
   const std::uint64_t chunks = checkChunks(database, options, faults, result);
-  result.digest = detail::digestOf(options, chunks);
+  result.digest = detail::computeDigest(options, chunks);
   const auto stated = [&](const char* key) {
     const auto found = meta.find(key);
     return found == meta.end() ? std::string() : found->second;
@@ -125,7 +125,7 @@ void checkTables(const Database& database, Faults& faults, MapVerification& resu
     faults.add(file + ": its intact chunks have digest " + result.digest + ", table meta says '" +
                stated(detail::kDigestKey) + "'");
   const std::string description = detail::describe(option_texts, yaml, meta);
-  const std::string checksum = detail::checksumOf(description, scans, result.scans);
+  const std::string checksum = detail::computeChecksum(description, scans, result.scans);
   if (checksum != stated(detail::kChecksumKey))
     faults.add(file + ": options, label set, scans and meta do not have the checksum '" +
                stated(detail::kChecksumKey) + "'");

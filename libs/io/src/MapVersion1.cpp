@@ -3,10 +3,51 @@
 #include "MapVersion1.h"
 
 #include "MapSchema.h"
+#include "MapTables.h"
 
 namespace csom::detail::version1 {
 
-std::string digestOf(const SemanticMap& map) {
+namespace {
+
+/// The options as they followed each other in that version's checksum.
+constexpr const char* kOptionsInOrder[] = {"resolution",
+                                           "number_of_classes",
+                                           "unlabelled_class_id",
+                                           "block_depth",
+                                           "method",
+                                           "rvfm",
+                                           "aklm",
+                                           "kernel",
+                                           "neighbourhood",
+                                           "ds_resolution",
+                                           "min_range",
+                                           "max_range",
+                                           "free_space",
+                                           "free_resolution",
+                                           "free_weight",
+                                           "context_weight_self",
+                                           "context_weight_neighbour",
+                                           "context_threshold",
+                                           "context_neighbours",
+                                           "kernel_length_min",
+                                           "kernel_length_max",
+                                           "kernel_length",
+                                           "kernel_scale",
+                                           "surface_planes",
+                                           "surface_neighbours",
+                                           "surface_reach",
+                                           "surface_gap",
+                                           "surface_thickness",
+                                           "surface_support",
+                                           "surface_hit_weight",
+                                           "surface_free_limit",
+                                           "counter_evidence",
+                                           "prior",
+                                           "threads"};
+
+}  // namespace
+
+std::string computeDigest(const SemanticMap& map) {
   Hasher hasher;
   hasher.add(map.options().resolution);
   hasher.add(static_cast<std::int32_t>(map.options().number_of_classes));
@@ -20,14 +61,14 @@ std::string digestOf(const SemanticMap& map) {
   return hexadecimal(hasher.value());
 }
 
-std::string checksumOf(const MapDocument& document, const Texts& options) {
+std::string computeChecksum(const MapDocument& document, const Texts& options) {
   Hasher hasher;
-  visitOptions(document.map.options(),
-               [&](const char* name, const auto& field, const char*, const char*) {
-                 if (options.count(name) == 0) return;
-                 hasher.add(std::string(name));
-                 hasher.add(toString(field));
-               });
+  const Texts texts = textsOf(document.map.options());
+  for (const char* key : kOptionsInOrder) {
+    if (options.count(key) == 0) continue;
+    hasher.add(std::string(key));
+    hasher.add(texts.at(key));
+  }
   hasher.add(document.labels.toYaml());
   for (const auto& [key, value] : document.meta) {
     if (key == kDigestKey || key == kChecksumKey) continue;
@@ -49,7 +90,7 @@ std::string checksumOf(const MapDocument& document, const Texts& options) {
 namespace csom {
 
 std::string mapDigestOfVersion1(const SemanticMap& map) {
-  return detail::version1::digestOf(map);
+  return detail::version1::computeDigest(map);
 }
 
 }  // namespace csom

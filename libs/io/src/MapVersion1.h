@@ -12,9 +12,9 @@ namespace csom::detail::version1 {
 
 /// XXH3 over resolution, classes, prior and all chunks in order. A run.json of that time has it
 /// too.
-std::string digestOf(const SemanticMap& map);
+std::string computeDigest(const SemanticMap& map);
 
 /// Over what the document holds beside its chunks; `options` are those that the file has.
-std::string checksumOf(const MapDocument& document, const Texts& options);
+std::string computeChecksum(const MapDocument& document, const Texts& options);
 
 }  // namespace csom::detail::version1

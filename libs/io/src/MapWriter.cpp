@@ -62,9 +62,10 @@ void saveMap(const MapDocument& document, const std::string& file) {
       detail::writeDescription(database, options, document.labels, meta);
   const std::uint64_t scans = writeScans(database, document.scans);
   const std::uint64_t chunks = writeChunks(database, document.map.chunks());
-  detail::writeTotals(database, {document.map.chunks().chunkCount(), document.scans.size(),
-                                 detail::digestOf(options, chunks),
-                                 detail::checksumOf(description, scans, document.scans.size())});
+  detail::writeTotals(database,
+                      {document.map.chunks().chunkCount(), document.scans.size(),
+                       detail::computeDigest(options, chunks),
+                       detail::computeChecksum(description, scans, document.scans.size())});
   database.execute("COMMIT");
   database.close();
   detail::sealPages(output.path(), file);

@@ -18,7 +18,7 @@ namespace {
 using Page = std::array<char, kPageSize>;
 
 /// The number of the page is the seed: pages that have changed places are found too.
-std::uint64_t sealOf(const Page& page, std::uint64_t number) {
+std::uint64_t computeSeal(const Page& page, std::uint64_t number) {
   return XXH3_64bits_withSeed(page.data(), kPageSize - kSealSize, number);
 }
 
@@ -38,7 +38,7 @@ void sealPages(const std::string& path, const std::string& shown_name) {
   if (!file) fail();
   Page page{};
   for (std::uint64_t number = 1; file.read(page.data(), kPageSize); ++number) {
-    const std::uint64_t seal = sealOf(page, number);
+    const std::uint64_t seal = computeSeal(page, number);
     file.seekp(static_cast<std::streamoff>(number * kPageSize - kSealSize));
     file.write(reinterpret_cast<const char*>(&seal), sizeof seal);
     // Between writing and reading a stream wants to be told its place.
@@ -57,7 +57,7 @@ std::vector<std::string> checkSeals(const std::string& file) {
   Page page{};
   std::uint64_t number = 1;
   for (; stream.read(page.data(), kPageSize); ++number) {
-    if (sealIn(page) != sealOf(page, number))
+    if (sealIn(page) != computeSeal(page, number))
       faults.push_back("page " + std::to_string(number) + " (from byte " +
                        std::to_string((number - 1) * kPageSize) + ") is not as it was written");
   }

@@ -141,7 +141,7 @@ class CompressedReader {
   std::string unpacked(std::string_view data, PcdCloud& cloud) const {
     constexpr std::size_t kSizes = 2 * sizeof(std::uint32_t);
     // Of LZF: three bytes stand for 264 at the most.
-    constexpr std::size_t kMostExpansion = 88;
+    constexpr std::size_t kMaxExpansion = 88;
     if (data.size() < kSizes) fail("compressed data without its two sizes; the file is truncated");
     const auto packed = static_cast<std::size_t>(numberAt<std::uint32_t>(data.data()));
     const auto size =
@@ -150,7 +150,7 @@ class CompressedReader {
       fail("announces " + std::to_string(packed) + " bytes of compressed data, but only " +
            std::to_string(data.size() - kSizes) + " follow; the file is truncated");
     const bool fits = isOf(size, bytesOfPoint(false)) || isOf(size, bytesOfPoint(true));
-    if (!fits || size / kMostExpansion > packed)
+    if (!fits || size / kMaxExpansion > packed)
       fail(std::to_string(packed) + " bytes of compressed data that are to become " +
            std::to_string(size) + " cannot be " + std::to_string(header_.points) + " points of " +
            std::to_string(bytesOfPoint(false)) + " bytes");

@@ -30,7 +30,7 @@ class PageFile {
     if (!stream_) throw FileError(file, std::string("cannot be read: ") + std::strerror(errno));
     stream_.seekg(0, std::ios::end);
     pages_ = static_cast<std::uint64_t>(stream_.tellg()) / kPageSize;
-    chained_left_ = kMostChained * pages_;
+    chained_left_ = kMaxChained * pages_;
   }
   /// `number` from 1. False if there is no such page.
   bool read(std::uint64_t number, Page& page) {
@@ -50,7 +50,7 @@ class PageFile {
 
  private:
   /// What is no row may look like the beginning of one, and then has a continuation as well.
-  static constexpr std::uint64_t kMostChained = 64;
+  static constexpr std::uint64_t kMaxChained = 64;
 
   std::ifstream stream_;
   std::uint64_t pages_ = 0;
@@ -86,11 +86,11 @@ class Varints {
 
 /// How many bytes of a row of `size` lie in its own page; the others lie in a chain of pages.
 std::size_t localBytes(std::size_t size) {
-  constexpr std::size_t kMost = kUsable - 35;
-  constexpr std::size_t kLeast = (kUsable - 12) * 32 / 255 - 23;
-  if (size <= kMost) return size;
-  const std::size_t rest = kLeast + (size - kLeast) % (kUsable - 4);
-  return rest <= kMost ? rest : kLeast;
+  constexpr std::size_t kMax = kUsable - 35;
+  constexpr std::size_t kMin = (kUsable - 12) * 32 / 255 - 23;
+  if (size <= kMax) return size;
+  const std::size_t rest = kMin + (size - kMin) % (kUsable - 4);
+  return rest <= kMax ? rest : kMin;
 }
 
 /// The bytes of the row that a cell begins.
@@ -139,7 +139,7 @@ RowValue valueOf(std::uint64_t type, const unsigned char* bytes, std::size_t siz
 }
 
 std::optional<TableRow> parseRow(const std::string& payload) {
-  constexpr std::size_t kMostColumns = 64;
+  constexpr std::size_t kMaxColumns = 64;
   const auto* const begin = reinterpret_cast<const unsigned char*>(payload.data());
   const unsigned char* const end = begin + payload.size();
   Varints header(begin, end);
@@ -153,7 +153,7 @@ std::optional<TableRow> parseRow(const std::string& payload) {
     const auto type = types.next();
     const auto left = static_cast<std::size_t>(end - at);
     const auto size = type ? sizeOf(*type, left) : std::nullopt;
-    if (!size || *size > left || row.size() == kMostColumns) return std::nullopt;
+    if (!size || *size > left || row.size() == kMaxColumns) return std::nullopt;
     row.push_back(valueOf(*type, at, *size));
     at += *size;
   }

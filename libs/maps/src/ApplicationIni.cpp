@@ -19,7 +19,7 @@ namespace {
 using mrpt::config::CConfigFile;
 
 /// More of one kind are a slip of the pen, and would take a while to be read.
-constexpr int kMostMaps = 99;
+constexpr int kMaxMaps = 99;
 
 /// MRPT's own maps that icp-slam and rbpf-slam's optimal proposal can align scans to.
 constexpr const char* kAlignable[] = {
@@ -83,9 +83,9 @@ class MapsOfIni {
           });
       if (name != std::end(kMapNames)) {
         const int count = number(section, key);
-        if (count > kMostMaps)
+        if (count > kMaxMaps)
           throw ConfigError(IniSection(ini_, section).place() + " " + key + " = " +
-                            toString(count) + " must be " + toString(kMostMaps) + " at most");
+                            toString(count) + " must be " + toString(kMaxMaps) + " at most");
         definitions_.push_back({section, name->name, name->is_points_map, count});
       } else if (lower.find("semantic") != std::string::npos &&
                  lower.find("count") != std::string::npos) {
@@ -202,7 +202,7 @@ std::vector<std::string> checkApplicationIni(const std::string& file,
   return unread;
 }
 
-std::vector<std::string> outputFoldersOf(const std::string& ini_file) {
+std::vector<std::string> listOutputFolders(const std::string& ini_file) {
   constexpr char kKey[] = "logOutput_dir";
   CConfigFile ini;
   openIni(ini_file, ini);

@@ -62,7 +62,7 @@ class ByteReader {
   std::size_t count(std::size_t bytes_each) {
     const auto value = number<std::uint64_t>();
     if (value > left() / bytes_each)
-      throw std::runtime_error("serialised map: " + std::to_string(value) + " items announced, " +
+      throw std::runtime_error("serialised map: " + std::to_string(value) + " items stated, " +
                                std::to_string(left()) + " bytes left");
     return static_cast<std::size_t>(value);
   }

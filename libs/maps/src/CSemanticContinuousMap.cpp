@@ -65,7 +65,7 @@ std::map<std::string, std::string> describe(const InsertionStatistics& statistic
     if (count > 0) meta[key] = std::to_string(count);
   };
   note("points_without_label_dropped",
-       statistics.labels.missing + (cameras ? cameras->pointsDropped() : 0));
+       statistics.labels.missing + (cameras ? cameras->points.dropped() : 0));
   note("points_with_unknown_label_dropped", statistics.labels.unknown);
   note("points_with_unknown_label_kept_unlabelled", statistics.labels.kept_unknown);
   note("points_with_ignored_label_dropped", statistics.labels.ignored);
@@ -91,7 +91,7 @@ CSemanticContinuousMap::CSemanticContinuousMap(const CSemanticContinuousMap& oth
       likelihoodOptions(other.likelihoodOptions),
       renderingOptions(other.renderingOptions),
       labelOptions(other.labelOptions),
-      announce_damaged(other.announce_damaged),
+      warn_of_damaged(other.warn_of_damaged),
       map_(other.map_),
       labels_(other.labels_),
       scans_(other.scans_),
@@ -109,7 +109,7 @@ CSemanticContinuousMap& CSemanticContinuousMap::operator=(const CSemanticContinu
   likelihoodOptions = other.likelihoodOptions;
   renderingOptions = other.renderingOptions;
   labelOptions = other.labelOptions;
-  announce_damaged = other.announce_damaged;
+  warn_of_damaged = other.warn_of_damaged;
   map_ = other.map_;
   labels_ = other.labels_;
   scans_ = other.scans_;
@@ -276,20 +276,17 @@ ObservationAdapter& CSemanticContinuousMap::adapter() {
 }
 
 void CSemanticContinuousMap::openLabelSources() {
-  if (auto* cameras = dynamic_cast<CameraLabelledAdapter*>(&adapter())) cameras->loadNetworks();
+  adapter().loadNetworks();
 }
 
 void CSemanticContinuousMap::takeLabelSourcesOf(const CSemanticContinuousMap& other) {
   labelOptions.label_cache = other.labelOptions.label_cache;
-  auto* const own = dynamic_cast<CameraLabelledAdapter*>(adapter_.get());
-  const auto* const given = dynamic_cast<const CameraLabelledAdapter*>(other.adapter_.get());
-  if (own != nullptr && given != nullptr) own->takeNetworksOf(*given);
+  if (adapter_ && other.adapter_) adapter_->takeNetworksOf(*other.adapter_);
 }
 
 void CSemanticContinuousMap::setLabelledScanObserver(LabelledScanObserver observer) {
   labelled_scan_observer_ = std::move(observer);
-  if (auto* cameras = dynamic_cast<CameraLabelledAdapter*>(adapter_.get()))
-    cameras->setObserver(labelled_scan_observer_);
+  if (adapter_) adapter_->setObserver(labelled_scan_observer_);
 }
 
 void CSemanticContinuousMap::flush() {
@@ -309,7 +306,7 @@ bool CSemanticContinuousMap::insertScans(const std::vector<AdaptedScan>& adapted
 }
 
 bool CSemanticContinuousMap::insertScan(const AdaptedScan& adapted) {
-  statistics_.labels += adapted.labels;
+  addStatistics(statistics_.labels, adapted.labels);
   statistics_.no_returns += adapted.no_returns;
   ScanReport report = map_.insert(adapted.scan);
   if (report.points == report.rejectedTotal()) {
@@ -336,7 +333,7 @@ void CSemanticContinuousMap::noteDamaged(const mrpt::obs::CObservation& observat
   const std::string name = observationName(observation);
   if (statistics_.damaged[name]++ > 0) return;
   statistics_.why_damaged[name] = why;
-  if (!announce_damaged) return;
+  if (!warn_of_damaged) return;
   std::cerr << "csom: warning: " << name << " '" << observation.sensorLabel
             << "' is not inserted: " << why << " (further ones are only counted)\n";
 }

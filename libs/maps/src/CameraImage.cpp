@@ -81,7 +81,7 @@ CameraImage cameraImage(const CImage& image, const TCamera& camera,
 
 }  // namespace
 
-std::optional<CameraImage> cameraImageOf(const mrpt::obs::CObservation& observation) {
+std::optional<CameraImage> toCameraImage(const mrpt::obs::CObservation& observation) {
   if (const auto* mono = dynamic_cast<const mrpt::obs::CObservationImage*>(&observation))
     return cameraImage(mono->image, mono->cameraParams, mono->cameraPose);
   if (const auto* stereo = dynamic_cast<const mrpt::obs::CObservationStereoImages*>(&observation))

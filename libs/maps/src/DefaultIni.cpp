@@ -21,10 +21,9 @@ class IniText {
     text_ += "\n; " + help + "\n;[MappingApplication_semanticContinuousMap_00" + suffix + "]\n";
   }
 
-  void key(const std::string& key, const std::string& value, const std::string& unit,
-           const std::string& help) {
+  void key(const std::string& key, const std::string& value, const std::string& help) {
     // An empty value cannot be told from one that is missing.
-    write(key, value, help + (unit.empty() ? "" : " [" + unit + "]"), value.empty());
+    write(key, value, help, value.empty());
   }
   void commentedKey(const std::string& key, const std::string& value, const std::string& help) {
     write(key, value, help, true);
@@ -32,8 +31,10 @@ class IniText {
 
   /// For the visitors of options.
   template <class Field>
-  void operator()(const char* name, const Field& field, const char* unit, const char* help) {
-    key(name, toString(field), unit, help);
+  void operator()(const OptionInfo& option, const Field& field) {
+    const std::string unit = option.unit;
+    key(option.key, toString(field),
+        fullHelp(option, field) + (unit.empty() ? "" : " [" + unit + "]"));
   }
 
   const std::string& text() const { return text_; }
@@ -59,22 +60,21 @@ void writeCreation(IniText& ini) {
   const mrpt::maps::TMapGenericParams generic;
   ini.section("_creationOpts");
   ini.key(
-      "label_set", "", "",
+      "label_set", "",
       "classes of the map: a path (relative to the ini file, or to the working folder where the "
       "application does not tell the file, as rbpf-slam and icp-slam do), or the name of one of "
       "the label sets that are installed; without it the map has two classes, free and "
       "occupied");
-  visitOptions(options,
-               [&](const char* key, const auto& field, const char* unit, const char* help) {
-                 if (isIn(key, {"resolution"})) ini(key, field, unit, help);
-               });
+  visitOptions(options, [&](const OptionInfo& option, const auto& field) {
+    if (isIn(option.key, {"resolution"})) ini(option, field);
+  });
   // MRPT reads these itself, and does not know our words.
   const auto word = [](bool value) { return value ? "true" : "false"; };
-  ini.key("enableObservationInsertion", word(generic.enableObservationInsertion), "",
+  ini.key("enableObservationInsertion", word(generic.enableObservationInsertion),
           "MRPT: observations are inserted");
-  ini.key("enableObservationLikelihood", word(generic.enableObservationLikelihood), "",
+  ini.key("enableObservationLikelihood", word(generic.enableObservationLikelihood),
           "MRPT: the likelihood of observations is computed");
-  ini.key("enableSaveAs3DObject", word(generic.enableSaveAs3DObject), "",
+  ini.key("enableSaveAs3DObject", word(generic.enableSaveAs3DObject),
           "MRPT: the map is shown in 3-D views");
 }
 
@@ -82,13 +82,12 @@ void writeInsertion(IniText& ini) {
   const CSemanticContinuousMap::TInsertionOptions insertion;
   const Options options;
   ini.section("_insertOpts");
-  visitInsertionOptions(insertion, ini);
-  visitOptions(options,
-               [&](const char* key, const auto& field, const char* unit, const char* help) {
-                 // Those of the creation, and those that the label set says.
-                 if (!isIn(key, {"resolution", "number_of_classes", "unlabelled_class_id"}))
-                   ini(key, field, unit, help);
-               });
+  visitOptions(insertion, ini);
+  visitOptions(options, [&](const OptionInfo& option, const auto& field) {
+    // Those of the creation, and those that the label set says.
+    if (!isIn(option.key, {"resolution", "number_of_classes", "unlabelled_class_id"}))
+      ini(option, field);
+  });
 }
 
 void writeLabelSource(IniText& ini) {
@@ -96,8 +95,8 @@ void writeLabelSource(IniText& ini) {
   ini.commentedSection("_labelSource_00",
                        "a camera that labels the points of scans, or a sensor that needs none; the "
                        "next one is _labelSource_01, without a gap");
-  visitLabelSource(source, [&](const char* key, const auto& field, const char* help) {
-    ini.commentedKey(key, toString(field), help);
+  visitOptions(source, [&](const OptionInfo& option, const auto& field) {
+    ini.commentedKey(option.key, toString(field), fullHelp(option, field));
   });
 }
 
@@ -112,11 +111,11 @@ std::string defaultIni() {
   writeCreation(ini);
   writeInsertion(ini);
   ini.section("_labelOpts");
-  visitLabelOptions(labels, ini);
+  visitOptions(labels, ini);
   ini.section("_likelihoodOpts");
-  visitLikelihoodOptions(likelihood, ini);
+  visitOptions(likelihood, ini);
   ini.section("_renderOpts");
-  visitRenderingOptions(rendering, ini);
+  visitOptions(rendering, ini);
   writeLabelSource(ini);  // last: what is commented out ends no section
   return ini.text();
 }

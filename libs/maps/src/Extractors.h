@@ -12,17 +12,23 @@ namespace csom {
 /// What range images of 16 bits hold where the sensor gave up measuring; 0 where nothing came back.
 constexpr std::uint16_t kSaturatedRange = 0xffff;
 
+using MakePointExtractor = std::unique_ptr<PointExtractor>();
 /// CObservationVelodyneScan: raw packets if there are any, else the stored cloud; labels in the
 /// intensities.
-std::unique_ptr<PointExtractor> makeVelodyneExtractor();
+MakePointExtractor makeVelodyneExtractor;
 /// CObservationPointCloud: labels in the intensities of a CPointsMapXYZI or the colours of a
 /// CColouredPointsMap.
-std::unique_ptr<PointExtractor> makePointCloudExtractor();
+MakePointExtractor makePointCloudExtractor;
 /// CObservation3DRangeScan: the range image, or else the stored points; labels of pixels.
-std::unique_ptr<PointExtractor> makeRangeCameraExtractor();
+MakePointExtractor makeRangeCameraExtractor;
 /// CObservationRotatingScan: labels in the intensity image.
-std::unique_ptr<PointExtractor> makeRotatingScanExtractor();
+MakePointExtractor makeRotatingScanExtractor;
 /// CObservation2DRangeScan: all valid rays, one class.
-std::unique_ptr<PointExtractor> makeLaserScanExtractor();
+MakePointExtractor makeLaserScanExtractor;
+
+/// All. The first one that accepts an observation reads it.
+constexpr MakePointExtractor* kMakePointExtractors[] = {
+    makeVelodyneExtractor, makePointCloudExtractor, makeRangeCameraExtractor,
+    makeRotatingScanExtractor, makeLaserScanExtractor};
 
 }  // namespace csom

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the labels of points come from if the points do not carry them.
-#include <csom/core/EnumWords.h>
 #include <csom/core/Error.h>
 #include <csom/maps/LabelOptions.h>
 
@@ -9,28 +8,7 @@
 
 namespace csom {
 
-using detail::EnumWords;
-using detail::parseWord;
-using detail::wordOf;
-using LabelMode = PointLabellingOptions::LabelMode;
-using LowConfidence = PointLabellingOptions::LowConfidence;
-using SeveralCameras = PointLabellingOptions::SeveralCameras;
-
 namespace {
-
-constexpr EnumWords<LabelSource::Kind, 4> kKinds{
-    {{LabelSource::Kind::Network, "network"},
-     {LabelSource::Kind::LabelImage, "label_image"},
-     {LabelSource::Kind::PixelLabels, "pixel_labels"},
-     {LabelSource::Kind::PointLabels, "point_labels"}}};
-constexpr EnumWords<OutsideView, 2> kOutsideViews{
-    {{OutsideView::Drop, "drop"}, {OutsideView::Unlabelled, "unlabelled"}}};
-constexpr EnumWords<LabelMode, 2> kLabelModes{
-    {{LabelMode::Hard, "hard"}, {LabelMode::Soft, "soft"}}};
-constexpr EnumWords<LowConfidence, 2> kLowConfidences{
-    {{LowConfidence::Drop, "drop"}, {LowConfidence::Soft, "soft"}}};
-constexpr EnumWords<SeveralCameras, 2> kSeveralCameras{
-    {{SeveralCameras::NearestToCentre, "nearest-to-centre"}, {SeveralCameras::Vote, "vote"}}};
 
 void requireGiven(const std::string& key, const std::string& value, const LabelSource& source) {
   if (value.empty())
@@ -66,10 +44,7 @@ bool LabelOptions::usesCameras() const {
 }
 
 void LabelOptions::validate() const {
-  points.validate();
-  if (!(max_time_offset >= 0 && max_time_offset <= 3600))
-    throw OptionError("max_time_offset = " + toString(max_time_offset) +
-                      ": expected a number from 0 to 3600");
+  requireInRanges([&](auto&& visitor) { visit(*this, visitor); });
   std::set<std::string> sensors;
   std::set<std::string> label_images;
   for (const LabelSource& source : sources) {
@@ -83,44 +58,6 @@ void LabelOptions::validate() const {
     if (sensors.count(name) != 0)
       throw ConfigError("label_image = " + name + " is the sensor_label of a label source too");
   }
-}
-
-std::string toString(LabelSource::Kind value) {
-  return wordOf(kKinds, value);
-}
-std::string toString(OutsideView value) {
-  return wordOf(kOutsideViews, value);
-}
-std::string toString(LabelMode value) {
-  return wordOf(kLabelModes, value);
-}
-std::string toString(LowConfidence value) {
-  return wordOf(kLowConfidences, value);
-}
-std::string toString(SeveralCameras value) {
-  return wordOf(kSeveralCameras, value);
-}
-std::string toString(const std::string& value) {
-  return value;
-}
-
-void parse(const std::string& key, const std::string& text, LabelSource::Kind& value) {
-  parseWord(kKinds, key, text, value);
-}
-void parse(const std::string& key, const std::string& text, OutsideView& value) {
-  parseWord(kOutsideViews, key, text, value);
-}
-void parse(const std::string& key, const std::string& text, LabelMode& value) {
-  parseWord(kLabelModes, key, text, value);
-}
-void parse(const std::string& key, const std::string& text, LowConfidence& value) {
-  parseWord(kLowConfidences, key, text, value);
-}
-void parse(const std::string& key, const std::string& text, SeveralCameras& value) {
-  parseWord(kSeveralCameras, key, text, value);
-}
-void parse(const std::string& /*key*/, const std::string& text, std::string& value) {
-  value = text;
 }
 
 }  // namespace csom

@@ -46,39 +46,6 @@ PointLabel found(ClassId id) {
 
 }  // namespace
 
-std::string toString(PointLabels value) {
-  switch (value) {
-    case PointLabels::None:
-      return "none";
-    case PointLabels::ByIntensity:
-      return "intensity";
-    case PointLabels::ByColor:
-      return "color";
-  }
-  return "none";
-}
-
-void parse(const std::string& key, const std::string& text, PointLabels& value) {
-  for (const PointLabels candidate :
-       {PointLabels::None, PointLabels::ByIntensity, PointLabels::ByColor}) {
-    if (text != toString(candidate)) continue;
-    value = candidate;
-    return;
-  }
-  throw OptionError(key + " = " + text + " is not accepted; use none, intensity or color");
-}
-
-LabelCounts& LabelCounts::operator+=(const LabelCounts& other) {
-  labelled += other.labelled;
-  unlabelled += other.unlabelled;
-  kept_unknown += other.kept_unknown;
-  missing += other.missing;
-  unknown += other.unknown;
-  ignored += other.ignored;
-  ambiguous += other.ambiguous;
-  return *this;
-}
-
 LabelRules::LabelRules(const LabelSet& labels, PointLabels source,
                        const std::string& unlabelled_class, const std::string& scan_2d_class)
     : labels_(&labels), source_(source) {

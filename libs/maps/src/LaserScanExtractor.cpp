@@ -17,6 +17,8 @@ class LaserScanExtractor : public PointExtractor {
     return dynamic_cast<const CObservation2DRangeScan*>(&observation) != nullptr;
   }
 
+  bool seesAllAround() const override { return false; }
+
   bool holdsPoints(const mrpt::obs::CObservation& observation) const override {
     return dynamic_cast<const CObservation2DRangeScan&>(observation).getScanSize() > 0;
   }

@@ -23,23 +23,16 @@ using mrpt::config::CConfigFileBase;
 constexpr const char* kGenericKeys[] = {"enableSaveAs3DObject", "enableObservationLikelihood",
                                         "enableObservationInsertion"};
 
-void readCoreOptions(IniSection& section, Options& options) {
-  visitOptions(options, [&](const char* key, auto& field, const char*, const char*) {
-    if (std::strcmp(key, "unlabelled_class_id") == 0) return;  // the label set says so, by a name
-    section.read(key, field);
-  });
-}
-
-void readInsertion(IniSection& section, CSemanticContinuousMap::TInsertionOptions& options) {
-  visitInsertionOptions(options, [&](const char* key, auto& field, const char*, const char*) {
-    section.read(key, field);
+template <class OptionsLike>
+void readOptions(IniSection& section, OptionsLike& options) {
+  visitOptions(options, [&](const OptionInfo& option, auto& field) {
+    // The label set says it, by a name.
+    if (std::strcmp(option.key, "unlabelled_class_id") != 0) section.read(option.key, field);
   });
 }
 
 void readLikelihood(IniSection& section, CSemanticContinuousMap::TLikelihoodOptions& options) {
-  visitLikelihoodOptions(options, [&](const char* key, auto& field, const char*, const char*) {
-    section.read(key, field);
-  });
+  readOptions(section, options);
   try {
     options.validate();
   } catch (const OptionError& error) {
@@ -47,15 +40,16 @@ void readLikelihood(IniSection& section, CSemanticContinuousMap::TLikelihoodOpti
   }
 }
 
-void readRendering(IniSection& section, CSemanticContinuousMap::TRenderingOptions& options) {
-  visitRenderingOptions(options, [&](const char* key, auto& field, const char*, const char*) {
-    section.read(key, field);
-  });
-}
-
 template <class Value>
 void dump(std::ostream& out, const std::string& key, const Value& value) {
   out << key << std::string(key.size() < 40 ? 40 - key.size() : 1, ' ') << "= " << value << "\n";
+}
+
+template <class OptionsLike>
+void dumpOptions(std::ostream& out, const OptionsLike& options) {
+  visitOptions(options, [&](const OptionInfo& option, const auto& field) {
+    dump(out, option.key, toString(field));
+  });
 }
 
 /// A file of the ini, relative to its folder or else to the working folder, as an absolute path.
@@ -74,8 +68,7 @@ std::string existingFile(const std::string& path, const IniSection& section,
 
 LabelSource readLabelSource(IniSection& section, const CConfigFileBase& source) {
   LabelSource label_source;
-  visitLabelSource(label_source,
-                   [&](const char* key, auto& field, const char*) { section.read(key, field); });
+  readOptions(section, label_source);
   if (label_source.kind == LabelSource::Kind::Network) {
     if (!label_source.network.empty())
       label_source.network = existingFile(label_source.network, section, source, "network");
@@ -145,9 +138,7 @@ void check(const CSemanticContinuousMap::TMapDefinition& definition, const std::
     definition.labelOpts.validate();
     LabelRules(definition.labels, definition.insertionOpts.point_labels,
                definition.insertionOpts.unlabelled_class, definition.insertionOpts.scan_2d_class);
-  } catch (const OptionError& error) {
-    throw ConfigError(place + ": " + error.what());
-  } catch (const ConfigError& error) {
+  } catch (const ConfigError& error) {  // OptionErrors too
     throw ConfigError(place + ": " + error.what());
   }
 }
@@ -174,21 +165,17 @@ void CSemanticContinuousMap::TMapDefinition::load(const CConfigFileBase& source,
     for (const char* key : kGenericKeys) section.has(key);
     section.read("label_set", label_set);
     number_of_classes_given |= section.has("number_of_classes");
-    readCoreOptions(section, options);
+    readOptions(section, options);
   });
   reader.section({"_insertOpts", "_insertionOpts"}, [&](IniSection& section) {
     number_of_classes_given |= section.has("number_of_classes");
-    readCoreOptions(section, options);
-    readInsertion(section, insertionOpts);
+    readOptions(section, options);
+    readOptions(section, insertionOpts);
   });
   reader.section({"_likelihoodOpts"},
                  [&](IniSection& section) { readLikelihood(section, likelihoodOpts); });
-  reader.section({"_renderOpts"}, [&](IniSection& section) { readRendering(section, renderOpts); });
-  reader.section({"_labelOpts"}, [&](IniSection& section) {
-    visitLabelOptions(labelOpts, [&](const char* key, auto& field, const char*, const char*) {
-      section.read(key, field);
-    });
-  });
+  reader.section({"_renderOpts"}, [&](IniSection& section) { readOptions(section, renderOpts); });
+  reader.section({"_labelOpts"}, [&](IniSection& section) { readOptions(section, labelOpts); });
   labelOpts.sources.clear();
   for (int number = 0; number < 100; ++number) {
     const std::string suffix =
@@ -227,19 +214,12 @@ void CSemanticContinuousMap::TMapDefinition::loadFromConfigFile_map_specific(
 void CSemanticContinuousMap::TMapDefinition::dumpToTextStream_map_specific(
     std::ostream& out) const {
   dump(out, "label_set", labels.name());
-  visitOptions(options, [&](const char* key, const auto& field, const char*, const char*) {
-    dump(out, key, toString(field));
-  });
-  insertionOpts.dumpToTextStream(out);
-  likelihoodOpts.dumpToTextStream(out);
-  renderOpts.dumpToTextStream(out);
-  visitLabelOptions(labelOpts, [&](const char* key, const auto& field, const char*, const char*) {
-    dump(out, key, toString(field));
-  });
-  for (const LabelSource& source : labelOpts.sources)
-    visitLabelSource(source, [&](const char* key, const auto& field, const char*) {
-      dump(out, key, toString(field));
-    });
+  dumpOptions(out, options);
+  dumpOptions(out, insertionOpts);
+  dumpOptions(out, likelihoodOpts);
+  dumpOptions(out, renderOpts);
+  dumpOptions(out, labelOpts);
+  for (const LabelSource& source : labelOpts.sources) dumpOptions(out, source);
 }
 
 CreatedMap CSemanticContinuousMap::internal_CreateFromMapDefinition(
@@ -291,13 +271,11 @@ CSemanticContinuousMap::TMapDefinition CSemanticContinuousMap::definitionFromIni
 void CSemanticContinuousMap::TInsertionOptions::loadFromConfigFile(const CConfigFileBase& source,
                                                                    const std::string& section) {
   IniSection ini(source, section);
-  readInsertion(ini, *this);
+  readOptions(ini, *this);
 }
 
 void CSemanticContinuousMap::TInsertionOptions::dumpToTextStream(std::ostream& out) const {
-  visitInsertionOptions(*this, [&](const char* key, const auto& field, const char*, const char*) {
-    dump(out, key, toString(field));
-  });
+  dumpOptions(out, *this);
 }
 
 void CSemanticContinuousMap::TLikelihoodOptions::loadFromConfigFile(const CConfigFileBase& source,
@@ -307,21 +285,17 @@ void CSemanticContinuousMap::TLikelihoodOptions::loadFromConfigFile(const CConfi
 }
 
 void CSemanticContinuousMap::TLikelihoodOptions::dumpToTextStream(std::ostream& out) const {
-  visitLikelihoodOptions(*this, [&](const char* key, const auto& field, const char*, const char*) {
-    dump(out, key, toString(field));
-  });
+  dumpOptions(out, *this);
 }
 
 void CSemanticContinuousMap::TRenderingOptions::loadFromConfigFile(const CConfigFileBase& source,
                                                                    const std::string& section) {
   IniSection ini(source, section);
-  readRendering(ini, *this);
+  readOptions(ini, *this);
 }
 
 void CSemanticContinuousMap::TRenderingOptions::dumpToTextStream(std::ostream& out) const {
-  visitRenderingOptions(*this, [&](const char* key, const auto& field, const char*, const char*) {
-    dump(out, key, toString(field));
-  });
+  dumpOptions(out, *this);
 }
 
 }  // namespace csom

@@ -12,13 +12,14 @@
 #include <stdexcept>
 
 #include "ByteStream.h"
+#include "StatisticsBytes.h"
 
 namespace csom {
 namespace {
 
 /// 1: labels from cameras. 2: options of the likelihood by name. 3: those of views by name. 4:
 /// beams without a return, points of unknown labels that were kept.
-constexpr std::uint8_t kVersion = 4;
+constexpr std::uint8_t kVersion = 5;
 
 using Texts = std::map<std::string, std::string>;
 using Counts = std::map<std::string, std::size_t>;
@@ -60,23 +61,21 @@ Counts readCounts(ByteReader& in) {
 }
 
 /// Options are written and read by name, so that a later version may add some.
-/// `visit(visitor)` calls visitor(key, field, unit, help) for each.
+/// `visit(visitor)` calls visitor(OptionInfo, field) for each.
 template <class Visit>
 void writeByName(ByteWriter& out, Visit&& visit) {
   Texts texts;
-  visit([&](const char* key, const auto& field, const char*, const char*) {
-    texts[key] = toString(field);
-  });
+  visit([&](const OptionInfo& option, const auto& field) { texts[option.key] = toString(field); });
   write(out, texts);
 }
 
 template <class Visit>
 void readByName(ByteReader& in, Visit&& visit) {
   Texts texts = readTexts(in);
-  visit([&](const char* key, auto& field, const char*, const char*) {
-    const auto text = texts.find(key);
+  visit([&](const OptionInfo& option, auto& field) {
+    const auto text = texts.find(option.key);
     if (text == texts.end()) return;
-    parse(key, text->second, field);
+    parse(option.key, text->second, field);
     texts.erase(text);
   });
   if (!texts.empty())
@@ -94,27 +93,27 @@ Options readOptions(ByteReader& in) {
 }
 
 void write(ByteWriter& out, const LabelOptions& options) {
-  writeByName(out, [&](auto&& visitor) { visitLabelOptions(options, visitor); });
+  writeByName(out, [&](auto&& visitor) { visitOptions(options, visitor); });
   out.number(static_cast<std::uint64_t>(options.sources.size()));
   for (const LabelSource& source : options.sources)
-    visitLabelSource(
-        source, [&](const char*, const auto& field, const char*) { out.text(toString(field)); });
+    visitOptions(source, [&](const OptionInfo&, const auto& field) { out.text(toString(field)); });
 }
 
 LabelOptions readLabelOptions(ByteReader& in) {
   constexpr std::size_t kSmallest = 5 * sizeof(std::uint32_t);
   LabelOptions options;
-  readByName(in, [&](auto&& visitor) { visitLabelOptions(options, visitor); });
+  readByName(in, [&](auto&& visitor) { visitOptions(options, visitor); });
   options.sources.resize(in.count(kSmallest));
   for (LabelSource& source : options.sources)
-    visitLabelSource(
-        source, [&](const char* key, auto& field, const char*) { parse(key, in.text(), field); });
+    visitOptions(source, [&](const OptionInfo& option, auto& field) {
+      parse(option.key, in.text(), field);
+    });
   options.validate();
   return options;
 }
 
 void write(ByteWriter& out, const LikelihoodOptions& options) {
-  writeByName(out, [&](auto&& visitor) { visitLikelihoodOptions(options, visitor); });
+  writeByName(out, [&](auto&& visitor) { visitOptions(options, visitor); });
 }
 
 LikelihoodOptions readLikelihoodOptions(ByteReader& in, std::uint8_t version) {
@@ -124,14 +123,14 @@ LikelihoodOptions readLikelihoodOptions(ByteReader& in, std::uint8_t version) {
     options.max_distance = in.number<double>();
     options.sigma = in.number<double>();
   } else {
-    readByName(in, [&](auto&& visitor) { visitLikelihoodOptions(options, visitor); });
+    readByName(in, [&](auto&& visitor) { visitOptions(options, visitor); });
   }
   options.validate();
   return options;
 }
 
 void write(ByteWriter& out, const RenderingOptions& options) {
-  writeByName(out, [&](auto&& visitor) { visitRenderingOptions(options, visitor); });
+  writeByName(out, [&](auto&& visitor) { visitOptions(options, visitor); });
 }
 
 RenderingOptions readRenderingOptions(ByteReader& in, std::uint8_t version) {
@@ -141,19 +140,16 @@ RenderingOptions readRenderingOptions(ByteReader& in, std::uint8_t version) {
     options.free_voxels = in.flag();
     return options;
   }
-  readByName(in, [&](auto&& visitor) { visitRenderingOptions(options, visitor); });
+  readByName(in, [&](auto&& visitor) { visitOptions(options, visitor); });
   return options;
-}
-
-void write(ByteWriter& out, const LabelCounts& counts) {
-  for (const std::size_t count :
-       {counts.labelled, counts.unlabelled, counts.missing, counts.unknown, counts.ignored,
-        counts.ambiguous, counts.kept_unknown})
-    out.number(static_cast<std::uint64_t>(count));
 }
 
 LabelCounts readLabelCounts(ByteReader& in, std::uint8_t version) {
   LabelCounts counts;
+  if (version >= 5) {
+    readStatistics(in, counts);
+    return counts;
+  }
   for (std::size_t* count : {&counts.labelled, &counts.unlabelled, &counts.missing, &counts.unknown,
                              &counts.ignored, &counts.ambiguous})
     *count = in.number<std::uint64_t>();
@@ -179,12 +175,12 @@ void write(ByteWriter& out, const InsertionStatistics& statistics) {
   write(out, statistics.not_taken);
   write(out, statistics.damaged);
   write(out, statistics.why_damaged);
-  write(out, statistics.labels);
+  writeStatistics(out, statistics.labels);
   out.number(static_cast<std::uint64_t>(statistics.no_returns));
   write(out, statistics.unused);
 }
 
-InsertionStatistics readStatistics(ByteReader& in, std::uint8_t version) {
+InsertionStatistics readInsertionStatistics(ByteReader& in, std::uint8_t version) {
   InsertionStatistics statistics;
   statistics.inserted = in.number<std::uint64_t>();
   statistics.without_points = in.number<std::uint64_t>();
@@ -251,16 +247,16 @@ struct Block {
   std::size_t size = 0;
 };
 
-/// The announced size is believed piece by piece: a wrong one ends with the stream, not with the
+/// The stated size is believed piece by piece: a wrong one ends with the stream, not with the
 /// memory.
 Block readBlock(mrpt::serialization::CArchive& in) {
   constexpr std::uint64_t kFirstPiece = 1U << 24U;
-  const auto announced = in.ReadAs<std::uint64_t>();
+  const auto stated = in.ReadAs<std::uint64_t>();
   const auto hash = in.ReadAs<std::uint64_t>();
   Block block;
-  while (block.size < announced) {
+  while (block.size < stated) {
     const std::uint64_t next = std::max<std::uint64_t>(kFirstPiece, 2 * block.size);
-    const auto size = static_cast<std::size_t>(std::min(announced, next));
+    const auto size = static_cast<std::size_t>(std::min(stated, next));
     std::unique_ptr<std::uint8_t[]> larger(new std::uint8_t[size]);
     if (block.size > 0) std::memcpy(larger.get(), block.data.get(), block.size);
     block.data = std::move(larger);
@@ -336,7 +332,7 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
   LabelRules(labels->set(), insertion.point_labels, insertion.unlabelled_class,
              insertion.scan_2d_class);
   Texts meta = readTexts(block);
-  InsertionStatistics statistics = readStatistics(block, version);
+  InsertionStatistics statistics = readInsertionStatistics(block, version);
   std::vector<ScanRecord> scans = readScans(block);
   readChunks(block, map);
   std::unique_ptr<ObservationAdapter> adapter;

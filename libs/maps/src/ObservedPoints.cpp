@@ -29,7 +29,7 @@ class ChecksumArchive : public mrpt::serialization::CArchive {
   XXH3_state_t state_;
 };
 
-std::uint64_t checksumOf(const mrpt::obs::CObservation& observation) {
+std::uint64_t computeChecksum(const mrpt::obs::CObservation& observation) {
   ChecksumArchive archive;
   archive.WriteObject(observation);
   return archive.checksum();
@@ -72,7 +72,7 @@ std::shared_ptr<const ObservedPoints> ObservedPointsCache::get(
     const mrpt::obs::CObservation& observation, const LabelRules& rules, int decimation,
     ClassId unlabelled) const {
   constexpr std::size_t kRemembered = 8;  // observations of one moment
-  const Key key{checksumOf(observation), decimation, rules.source(), rules.ofScan2D().id};
+  const Key key{computeChecksum(observation), decimation, rules.source(), rules.ofScan2D().id};
   {
     const std::lock_guard lock(mutex_);
     for (const auto& [candidate, points] : known_) {

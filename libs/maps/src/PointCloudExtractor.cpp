@@ -64,7 +64,7 @@ std::vector<PointLabel> labelsOf(const CPointsMap& cloud, const LabelRules& rule
 
 /// The cloud of an observation, read from its file if it lies in one. load() would write into the
 /// observation, which other threads may be reading.
-CPointsMap::ConstPtr cloudOf(const CObservationPointCloud& scan) {
+CPointsMap::ConstPtr makeCloud(const CObservationPointCloud& scan) {
   if (!scan.isExternallyStored() || (scan.pointcloud && !scan.pointcloud->empty()))
     return scan.pointcloud;
   CObservationPointCloud copy = scan;
@@ -79,6 +79,8 @@ class PointCloudExtractor : public PointExtractor {
     return dynamic_cast<const CObservationPointCloud*>(&observation) != nullptr;
   }
 
+  bool seesAllAround() const override { return true; }
+
   bool holdsPoints(const mrpt::obs::CObservation& observation) const override {
     const auto& scan = dynamic_cast<const CObservationPointCloud&>(observation);
     return scan.isExternallyStored() || (scan.pointcloud && !scan.pointcloud->empty());
@@ -87,7 +89,7 @@ class PointCloudExtractor : public PointExtractor {
   SensorPoints extract(const mrpt::obs::CObservation& observation,
                        const LabelRules& rules) const override {
     const auto& scan = dynamic_cast<const CObservationPointCloud&>(observation);
-    const CPointsMap::ConstPtr loaded = cloudOf(scan);
+    const CPointsMap::ConstPtr loaded = makeCloud(scan);
     if (!loaded) throw std::runtime_error("it has no point cloud");
     const CPointsMap& cloud = *loaded;
     const auto& x = cloud.getPointsBufferRef_x();

@@ -2,7 +2,7 @@
 // The list of all extractors.
 #include <csom/maps/PointExtractor.h>
 
-#include <array>
+#include <vector>
 
 #include "Extractors.h"
 
@@ -10,9 +10,11 @@ namespace csom {
 
 const PointExtractor* findPointExtractor(const mrpt::obs::CObservation& observation) {
   // A particle filter asks for every particle: made once, which stateless objects allow.
-  static const std::array<std::unique_ptr<PointExtractor>, 5> extractors = {
-      makeVelodyneExtractor(), makePointCloudExtractor(), makeRangeCameraExtractor(),
-      makeRotatingScanExtractor(), makeLaserScanExtractor()};
+  static const auto extractors = [] {
+    std::vector<std::unique_ptr<PointExtractor>> all;
+    for (MakePointExtractor* make : kMakePointExtractors) all.push_back(make());
+    return all;
+  }();
   for (const auto& extractor : extractors) {
     if (extractor->accepts(observation)) return extractor.get();
   }

@@ -26,7 +26,7 @@ Eigen::Matrix3d rotationOf(const mrpt::poses::CPose3D& pose) {
 }
 
 /// Divides by the component of largest magnitude only, so that no bits are lost near half turns.
-Quaternion quaternionOf(const Eigen::Matrix3d& r) {
+Quaternion toQuaternion(const Eigen::Matrix3d& r) {
   const double trace = r.trace();
   const std::array<double, 4> squares{1 + trace, 1 + 2 * r(0, 0) - trace, 1 + 2 * r(1, 1) - trace,
                                       1 + 2 * r(2, 2) - trace};  // 4 w², 4 x², 4 y², 4 z²
@@ -95,7 +95,7 @@ Eigen::Isometry3d roundedPose(const mrpt::poses::CPose3D& pose) {
       translation.cwiseAbs().maxCoeff() > kMaxTranslation)
     throw std::runtime_error("robot pose is not finite: " + pose.asString());
   Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
-  out.linear() = rotationOf(onLattice(quaternionOf(rotation)));
+  out.linear() = rotationOf(onLattice(toQuaternion(rotation)));
   out.translation() << onLattice(translation.x()), onLattice(translation.y()),
       onLattice(translation.z());
   return out;

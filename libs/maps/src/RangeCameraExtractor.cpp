@@ -86,6 +86,8 @@ class RangeCameraExtractor : public PointExtractor {
     return dynamic_cast<const CObservation3DRangeScan*>(&observation) != nullptr;
   }
 
+  bool seesAllAround() const override { return false; }
+
   bool holdsPoints(const mrpt::obs::CObservation& observation) const override {
     const auto& scan = dynamic_cast<const CObservation3DRangeScan&>(observation);
     return scan.hasRangeImage || scan.hasPoints3D;

@@ -28,7 +28,7 @@ struct Elevation {
 
 /// The observation does not hold the elevations of its rows: only the models that MRPT has a
 /// calibration of are known, and scanners of one row.
-std::vector<Elevation> elevationsOf(const CObservationRotatingScan& scan) {
+std::vector<Elevation> computeElevations(const CObservationRotatingScan& scan) {
   if (scan.rowCount == 1) return {Elevation{}};
   if (isVelodyne(scan)) {
     const char* model = scan.lidarModel == "VLP-16" ? "VLP16" : "HDL32";
@@ -47,7 +47,7 @@ std::vector<Elevation> elevationsOf(const CObservationRotatingScan& scan) {
 
 bool knowsElevations(const CObservationRotatingScan& scan) {
   try {
-    elevationsOf(scan);
+    computeElevations(scan);
   } catch (const std::exception&) {
     return false;
   }
@@ -69,7 +69,7 @@ struct Azimuths {
   double step = 0;
 };
 
-Azimuths azimuthsOf(const CObservationRotatingScan& scan) {
+Azimuths computeAzimuths(const CObservationRotatingScan& scan) {
   const int columns = static_cast<int>(scan.rangeImage.cols());
   // MRPT's fromVelodyne() counts one column for each laser, of which it fills the first
   // 1/rows, and writes clockwise azimuths although they are defined counter-clockwise.
@@ -84,6 +84,8 @@ class RotatingScanExtractor : public PointExtractor {
   bool accepts(const mrpt::obs::CObservation& observation) const override {
     return dynamic_cast<const CObservationRotatingScan*>(&observation) != nullptr;
   }
+
+  bool seesAllAround() const override { return true; }
 
   bool holdsPoints(const mrpt::obs::CObservation& observation) const override {
     const auto& scan = dynamic_cast<const CObservationRotatingScan&>(observation);
@@ -102,8 +104,8 @@ class RotatingScanExtractor : public PointExtractor {
     SensorPoints out;
     out.sensor_pose = scan.sensorPose;
     if (rows == 0 || columns == 0) return out;
-    const std::vector<Elevation> elevations = elevationsOf(scan);
-    const Azimuths azimuths = azimuthsOf(scan);
+    const std::vector<Elevation> elevations = computeElevations(scan);
+    const Azimuths azimuths = computeAzimuths(scan);
     for (int column = 0; column < columns; ++column) {
       const double azimuth = azimuths.start + azimuths.step * column;
       const Eigen::Vector2d direction(std::cos(azimuth), std::sin(azimuth));

@@ -47,10 +47,10 @@ Plane planeAround(const SemanticMap& map, const VoxelIndex& index) {
 
 /// From the centre of a voxel along normals to where the evidence is on both sides.
 Eigen::Vector3d surfacePoint(const SemanticMap& map, const VoxelIndex& index) {
-  constexpr int kMostSteps = 4;
+  constexpr int kMaxSteps = 4;
   Eigen::Vector3d point = map.grid().center(index);
   VoxelIndex here = index;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const Plane plane = planeAround(map, here);
     point += plane.normal * plane.normal.dot(plane.point - point);
     const VoxelIndex next = map.grid().voxelAt(point);

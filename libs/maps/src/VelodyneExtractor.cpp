@@ -37,6 +37,8 @@ class VelodyneExtractor : public PointExtractor {
     return dynamic_cast<const CObservationVelodyneScan*>(&observation) != nullptr;
   }
 
+  bool seesAllAround() const override { return true; }
+
   bool holdsPoints(const mrpt::obs::CObservation& observation) const override {
     const auto& scan = dynamic_cast<const CObservationVelodyneScan&>(observation);
     return !scan.scan_packets.empty() || scan.point_cloud.size() > 0;

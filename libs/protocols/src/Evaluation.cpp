@@ -32,8 +32,7 @@ struct Run {
 
 /// The room or street of a data folder: itself, or the one of the usual name in it.
 std::string folderOf(const std::string& data, bool (*is_it)(const std::string&), const char* name) {
-  if (data.empty())
-    throw FileError(name, "no folder of data is given (--data or the environment's CSOM_DATA)");
+  if (data.empty()) throw FileError(name, "no folder of data is given", {"data"});
   for (const fs::path& folder : {fs::path(data), fs::path(data) / name})
     if (is_it(folder.string())) return folder.string();
   throw FileError(data, std::string("is no such data, and neither is ") + name + " in it");
@@ -44,8 +43,7 @@ std::string worldFile(const std::string& given, const char* name) {
   if (!given.empty()) return given;
   const fs::path labels = LabelSet::find("simulator");
   const fs::path file = labels.parent_path().parent_path() / "worlds" / name;
-  if (!fs::exists(file))
-    throw ConfigError(file.string() + ": no such world; name one with --world");
+  if (!fs::exists(file)) throw ConfigError(file.string() + ": no such world; name one", {"world"});
   return file.lexically_normal().string();
 }
 
@@ -68,7 +66,7 @@ class Inputs {
   Inputs(const EvaluationRequest& request, Evaluation& evaluation)
       : request_(request), evaluation_(evaluation) {}
 
-  std::vector<Trial> trialsOf(const std::string& protocol) {
+  std::vector<Trial> makeTrials(const std::string& protocol) {
     std::vector<Trial> trials;
     if (protocol == "P1") trials = roomDensityTrials(room(protocol), densities(), kRoomResolution);
     if (protocol == "P2")
@@ -216,7 +214,7 @@ Evaluation runEvaluation(const EvaluationRequest& request, const EvaluationProgr
     try {
       const std::vector<MethodSpec> methods =
           protocol == kParameterStudy ? parameterStudyMethods() : request.methods;
-      for (const Trial& trial : inputs.trialsOf(protocol))
+      for (const Trial& trial : inputs.makeTrials(protocol))
         for (const MethodSpec& method : methods) runs.push_back({trial, method});
     } catch (const FileError& error) {
       evaluation.left_out.push_back({protocol, error.what()});

@@ -16,7 +16,7 @@ std::vector<ClassId> classesOf(const ConfusionMatrix& matrix) {
   return found;
 }
 
-Json confusionOf(const ConfusionMatrix& matrix, const LabelSet& labels) {
+Json computeConfusion(const ConfusionMatrix& matrix, const LabelSet& labels) {
   Json json;
   const std::vector<ClassId> classes = classesOf(matrix);
   for (const ClassId k : classes) json["classes"].push_back(labels.at(k).name);
@@ -70,7 +70,7 @@ Json toJson(const VoxelScore& score, const LabelSet& labels) {
   json["accurateness"] = score.accuratenessOccupied();
   json["accurateness_box"] = score.accuratenessBox();
   json["voxels"] = score.voxels();
-  json["confusion"] = confusionOf(score.matrix(), labels);
+  json["confusion"] = computeConfusion(score.matrix(), labels);
   return json;
 }
 

@@ -243,19 +243,16 @@ std::string repetition(const Results& results) {
          "All scores:\n\n" + pointCloudDetails(results, scansOf);
 }
 
-/// "see-csom:block_depth=2:context_threshold=0.1" → its two values.
-std::string settingOf(const std::string& method, std::string_view key) {
-  const std::size_t at = method.find(std::string(key) + "=");
-  if (at == std::string::npos) return kNone;
-  const std::size_t begin = at + key.size() + 1;
-  return method.substr(begin, method.find(':', begin) - begin);
+std::string settingOf(const TrialResult& result, const std::string& key) {
+  const auto setting = result.settings.find(key);
+  return setting == result.settings.end() ? kNone : setting->second;
 }
 
 std::string parameterStudy(const Results& results) {
   const auto depths =
-      distinct(results, [](const TrialResult& r) { return settingOf(r.method, "block_depth"); });
-  const auto thresholds = distinct(
-      results, [](const TrialResult& r) { return settingOf(r.method, "context_threshold"); });
+      distinct(results, [](const TrialResult& r) { return settingOf(r, "block_depth"); });
+  const auto thresholds =
+      distinct(results, [](const TrialResult& r) { return settingOf(r, "context_threshold"); });
   const auto table = [&](std::string (*cell)(const TrialResult&)) {
     std::vector<std::string> header{"D_b"};
     for (const std::string& threshold : thresholds) header.push_back("T_con " + threshold);
@@ -263,7 +260,7 @@ std::string parameterStudy(const Results& results) {
     for (const std::string& depth : depths) {
       std::vector<std::string> row{depth};
       for (const TrialResult* r : results)
-        if (settingOf(r->method, "block_depth") == depth) row.push_back(cell(*r));
+        if (settingOf(*r, "block_depth") == depth) row.push_back(cell(*r));
       text.add(row);
     }
     return text.text();
@@ -298,8 +295,8 @@ std::string runtimes(const Evaluation& evaluation) {
          "The published code and OctoMap, measured on another machine:\n\n" + theirs.text();
 }
 
-std::string tablesOf(const std::string& protocol, const Results& results,
-                     const Evaluation& evaluation) {
+std::string makeTables(const std::string& protocol, const Results& results,
+                       const Evaluation& evaluation) {
   if (protocol == "P1") return densitySweep(results);
   if (protocol == "P2") return byObject(results);
   if (protocol == "P3") return street(results, evaluation.predictions);
@@ -317,7 +314,7 @@ std::string toMarkdown(const Evaluation& evaluation) {
     const Results results = resultsOf(evaluation, info.name);
     if (results.empty()) continue;
     text += "## " + info.name + ": " + info.title + "\n\nInput: " + info.input +
-            ". Truth: " + info.truth + ".\n\n" + tablesOf(info.name, results, evaluation);
+            ". Truth: " + info.truth + ".\n\n" + makeTables(info.name, results, evaluation);
   }
   text += runtimes(evaluation);
   for (const LeftOutProtocol& left : evaluation.left_out)

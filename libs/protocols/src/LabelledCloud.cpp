@@ -20,7 +20,7 @@ Scan scanOf(const LabelledCloud& cloud, const Eigen::Vector3d& origin) {
   return scan;
 }
 
-VoxelTruth truthOf(const LabelledCloud& cloud, double resolution, int number_of_classes) {
+VoxelTruth computeTruth(const LabelledCloud& cloud, double resolution, int number_of_classes) {
   Options options;
   options.method = Method::SCsm;
   options.resolution = resolution;

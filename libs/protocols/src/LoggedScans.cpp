@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csom/core/Error.h>
-#include <csom/maps/CameraLabelledAdapter.h>
+#include <csom/maps/ObservationAdapter.h>
 #include <csom/maps/PoseRounding.h>
 #include <csom/protocols/LoggedScans.h>
 #include <csom/rawlog/Deskew.h>

@@ -29,7 +29,8 @@ bool isFixed(const std::string& key) {
 }  // namespace
 
 std::vector<std::string> defaultMethods() {
-  std::vector<std::string> names{"surface-csom", "see-csom", "s-bki", "s-csm"};
+  std::vector<std::string> names;
+  for (const detail::MethodEntry& entry : detail::kMethods) names.emplace_back(entry.word);
   for (const Baseline baseline : kBaselines) names.push_back(toString(baseline));
   return names;
 }
@@ -57,7 +58,8 @@ MethodSpec MethodSpec::parse(const std::string& text) {
       throw ConfigError("method '" + text + "': the protocol says what " + key + " is");
     if (!setOption(options, key, value))
       throw ConfigError("method '" + text + "': there is no option '" + key + "'");
-    spec.settings.emplace_back(key, value);
+    if (!spec.settings.emplace(key, value).second)
+      throw ConfigError("method '" + text + "': " + key + " is given twice");
   }
   return spec;
 }
@@ -71,7 +73,7 @@ std::unique_ptr<Mapper> makeMapper(const MethodSpec& spec, const Options& given)
   Options options = given;
   parse("method", spec.name, options.method);
   for (const auto& [key, value] : spec.settings) setOption(options, key, value);
-  if (given.free_space == FreeSpace::None) options.free_space = FreeSpace::None;
+  if (given.free_space.mode == FreeSpace::None) options.free_space.mode = FreeSpace::None;
   return std::make_unique<CsomMapper>(options);
 }
 

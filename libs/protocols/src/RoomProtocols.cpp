@@ -23,11 +23,11 @@ Trial roomTrial(const std::string& protocol, const Room& room, double resolution
   trial.labels = room.labels;
   trial.options.number_of_classes = room.labels.numberOfClasses();
   trial.options.resolution = resolution;
-  trial.options.free_space = FreeSpace::None;
+  trial.options.free_space.mode = FreeSpace::None;
   const auto all = std::make_shared<LabelledCloud>(labelledPoints(room));
   trial.points = all;
   trial.truth =
-      std::make_shared<VoxelTruth>(truthOf(*all, resolution, trial.options.number_of_classes));
+      std::make_shared<VoxelTruth>(computeTruth(*all, resolution, trial.options.number_of_classes));
   return trial;
 }
 
@@ -36,7 +36,7 @@ std::vector<Trial> atDensities(const Trial& trial, const std::vector<double>& de
   for (const double density : densities) {
     trials.push_back(trial);
     trials.back().variant = inMetres("ds", density);
-    trials.back().options.ds_resolution = density;
+    trials.back().options.scan.ds_resolution = density;
   }
   return trials;
 }
@@ -114,7 +114,7 @@ std::vector<Trial> roomObjectTrials(const Room& room, const std::vector<double>&
 std::vector<Trial> roomRepetitionTrials(const Room& room, double density, double resolution,
                                         const RepetitionOptions& options) {
   Trial trial = roomTrial("P6", room, resolution);
-  trial.options.ds_resolution = density;
+  trial.options.scan.ds_resolution = density;
   trial.checkpoints = options.checkpoints;
   const Scan all = scanOf(*trial.points, Eigen::Vector3d::Zero());
   std::vector<Scan> scans(options.scans);

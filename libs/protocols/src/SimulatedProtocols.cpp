@@ -15,7 +15,7 @@ namespace {
 /// The step of free points along a beam, as in the paper's experiments [m].
 constexpr double kFreeResolution = 0.5;
 
-std::shared_ptr<const VoxelTruth> truthOf(const Scenario& scenario) {
+std::shared_ptr<const VoxelTruth> computeTruth(const Scenario& scenario) {
   try {
     const GroundTruth truth(scenario.world, scenario.truth.resolution);
     return std::make_shared<VoxelTruth>(truth.toMap(truth.voxelsIn(scenario.truth.region)));
@@ -30,9 +30,9 @@ Trial simulatedTrial(const std::string& protocol, const Scenario& scenario) {
   trial.labels = scenario.world.labels();
   trial.options.number_of_classes = trial.labels.numberOfClasses();
   trial.options.resolution = scenario.truth.resolution;
-  trial.options.free_space = FreeSpace::Sampled;
-  trial.options.free_resolution = kFreeResolution;
-  trial.truth = truthOf(scenario);
+  trial.options.free_space.mode = FreeSpace::Sampled;
+  trial.options.free_space.resolution = kFreeResolution;
+  trial.truth = computeTruth(scenario);
   return trial;
 }
 
@@ -64,7 +64,7 @@ std::shared_ptr<const VoxelTruth> seenOf(const Trial& trial, const std::vector<S
   options.number_of_classes = trial.options.number_of_classes;
   options.resolution = trial.options.resolution;
   options.method = Method::SCsm;
-  options.free_space = FreeSpace::Raycast;
+  options.free_space.mode = FreeSpace::Raycast;
   SemanticMap beams(options);
   for (const Scan& scan : scans) beams.insert(scan);
   auto seen = std::make_shared<VoxelTruth>(*trial.truth);

@@ -101,8 +101,8 @@ std::vector<Trial> streetTrials(const Street& street, std::size_t every, double 
   trial.labels = street.labels;
   trial.options.number_of_classes = street.labels.numberOfClasses();
   trial.options.resolution = resolution;
-  trial.options.ds_resolution = density;
-  trial.options.free_space = FreeSpace::None;
+  trial.options.scan.ds_resolution = density;
+  trial.options.free_space.mode = FreeSpace::None;
   LabelledCloud all = labelledPoints(street);
   std::vector<Scan> scans;
   for (std::size_t i = 0; i < street.scans.size(); i += every) {
@@ -110,7 +110,7 @@ std::vector<Trial> streetTrials(const Street& street, std::size_t every, double 
     scans.push_back(scanOf({scan.points, scan.predictions}, scan.origin));
   }
   trial.truth =
-      std::make_shared<VoxelTruth>(truthOf(all, resolution, trial.options.number_of_classes));
+      std::make_shared<VoxelTruth>(computeTruth(all, resolution, trial.options.number_of_classes));
   trial.points = std::make_shared<LabelledCloud>(std::move(all));
   trial.scans = std::make_shared<std::vector<Scan>>(std::move(scans));
   return {trial};

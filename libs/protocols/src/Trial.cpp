@@ -24,13 +24,13 @@ double median(std::vector<double> values) {
   return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
 
-std::optional<RocFigures> rocOf(const RocSamples& samples, double score_of_unknown) {
+std::optional<RocFigures> computeRoc(const RocSamples& samples, double score_of_unknown) {
   const auto curve = samples.curve(score_of_unknown);
   if (!curve) return std::nullopt;
   return RocFigures{curve->auc(), curve->truePositiveRateAt(0.2), curve->thinned(kCurvePoints)};
 }
 
-VoxelFigures figuresOf(const Mapper& map, const VoxelTruth& truth) {
+VoxelFigures computeFigures(const Mapper& map, const VoxelTruth& truth) {
   const VoxelEvaluation voxels = evaluateVoxels(map, truth);
   VoxelFigures figures;
   figures.score = voxels.score;
@@ -39,8 +39,8 @@ VoxelFigures figuresOf(const Mapper& map, const VoxelTruth& truth) {
         static_cast<double>(voxels.known) / static_cast<double>(voxels.score.voxels());
   figures.known_free_iou = voxels.known_free_iou;
   if (!truth.knowsFree()) return figures;
-  figures.roc_unknown_half = rocOf(voxels.occupancy, 0.5);
-  figures.roc_unknown_zero = rocOf(voxels.occupancy, 0);
+  figures.roc_unknown_half = computeRoc(voxels.occupancy, 0.5);
+  figures.roc_unknown_zero = computeRoc(voxels.occupancy, 0);
   figures.calibration = voxels.calibration;
   figures.occupancy_calibration = voxels.occupancy_calibration;
   return figures;
@@ -51,8 +51,8 @@ TrialResult scored(const Mapper& map, const Trial& trial) {
   result.protocol = trial.protocol;
   result.variant = trial.variant;
   result.classes = map.hasClasses();
-  result.voxels = figuresOf(map, *trial.truth);
-  if (trial.seen_truth) result.seen = figuresOf(map, *trial.seen_truth);
+  result.voxels = computeFigures(map, *trial.truth);
+  if (trial.seen_truth) result.seen = computeFigures(map, *trial.seen_truth);
   if (trial.points && map.hasClasses())
     result.points = scorePoints(map, *trial.points, trial.options.number_of_classes);
   return result;
@@ -74,6 +74,7 @@ std::vector<TrialResult> runTrial(const Trial& trial, const MethodSpec& method) 
     if (!checked && !(last && trial.checkpoints.empty())) continue;
     results.push_back(scored(*map, trial));
     results.back().method = method.text;
+    results.back().settings = method.settings;
     results.back().scans = times.size();
     results.back().ms_per_scan = median(times);
   }

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <set>
 
-#include "Html.h"
+#include <csom/report/Html.h>
 
 namespace csom {
 
@@ -49,19 +49,18 @@ void writeLegend(std::ostream& page, const std::set<ClassId>& classes, const Map
   page << "</ul>\n";
 }
 
-void writeCameras(std::ostream& page, const std::vector<CameraSource>& cameras) {
+void writeCameras(std::ostream& page, const std::vector<CameraStatistics::Camera>& cameras) {
   page << "<div class=\"wide\"><table><thead><tr><th class=\"text\">camera</th>"
-       << "<th class=\"text\">labels from</th><th>images</th><th>used</th>"
-       << "<th>through the network</th><th>from the cache</th><th>not needed</th><th>refused</th>"
-       << "</tr></thead><tbody>\n";
-  for (const CameraSource& camera : cameras) {
-    const ImageCounts& images = camera.images;
+       << "<th class=\"text\">labels from</th>";
+  ImageCounts::visit([&](const StatisticInfo& info) { page << "<th>" << info.words << "</th>"; });
+  page << "<th>not needed</th></tr></thead><tbody>\n";
+  for (const CameraStatistics::Camera& camera : cameras) {
     page << "<tr><td class=\"text\"><code>" << escapeHtml(camera.sensor_label)
-         << "</code></td><td class=\"text\">" << escapeHtml(camera.source) << "</td><td>"
-         << formatCount(images.read) << "</td><td>" << formatCount(images.used) << "</td><td>"
-         << formatCount(images.network_runs) << "</td><td>" << formatCount(images.from_cache)
-         << "</td><td>" << formatCount(images.unused) << "</td><td>" << formatCount(images.refused)
-         << "</td></tr>\n";
+         << "</code></td><td class=\"text\">" << escapeHtml(camera.source) << "</td>";
+    ImageCounts::visit([&](const StatisticInfo&,
+                           std::size_t count) { page << "<td>" << formatCount(count) << "</td>"; },
+                       camera.images);
+    page << "<td>" << formatCount(camera.images.unused()) << "</td></tr>\n";
   }
   page << "</tbody></table></div>\n";
 }
@@ -74,17 +73,14 @@ std::string shareOf(std::size_t part, std::size_t whole) {
 void writePoints(std::ostream& page, const CameraPointCounts& points) {
   page << "<div class=\"wide\"><table><thead><tr><th class=\"text\">point</th><th>count</th>"
        << "<th>share of those in view</th></tr></thead><tbody>\n";
-  const auto row = [&](const char* fate, std::size_t count) {
-    if (count == 0) return;
-    page << "<tr><td class=\"text\">" << fate << "</td><td>" << formatCount(count) << "</td><td>"
-         << shareOf(count, points.inView()) << "</td></tr>\n";
-  };
-  row("got a label", points.labelled);
-  row("hidden from the camera by something nearer", points.hidden);
-  row("at a label border where the depth jumps", points.at_edge);
-  row("less sure of its class than <code>min_confidence</code>", points.low_confidence);
-  row("on something that the label set ignores", points.ignored);
-  row("on something that the label set does not know", points.unknown);
+  CameraPointCounts::visit(
+      [&](const StatisticInfo& info, const std::size_t& count) {
+        const bool in_view = &count != &points.outside_view && &count != &points.kept_unlabelled;
+        if (count == 0) return;
+        page << "<tr><td class=\"text\">" << info.words << "</td><td>" << formatCount(count)
+             << "</td><td>" << (in_view ? shareOf(count, points.inView()) : "") << "</td></tr>\n";
+      },
+      points);
   page << "</tbody></table></div>\n";
   const std::size_t all = points.inView() + points.outside_view;
   page << "<p>" << formatCount(points.outside_view, "point") << " of " << formatCount(all) << " ("
@@ -95,14 +91,16 @@ void writePoints(std::ostream& page, const CameraPointCounts& points) {
   page << "</p>\n";
 }
 
-void writeScans(std::ostream& page, const CameraLabels& labels) {
-  page << "<p>" << formatCount(labels.scans.labelled, "scan") << " got labels from images. ";
-  if (labels.scans.without_image > 0)
-    page << formatCount(labels.scans.without_image, "scan")
-         << " had no image near enough in time (<code>max_time_offset</code>). ";
-  if (labels.scans.late > 0)
-    page << formatCount(labels.scans.late)
-         << " of these came when the images of their time had been given up already. ";
+void writeScans(std::ostream& page, const CameraStatistics& labels) {
+  page << "<p>";
+  CameraScanCounts::visit(
+      [&](const StatisticInfo& info, const std::size_t& count) {
+        if (count == 0 && &count != &labels.scans.labelled) return;
+        const bool of_these = &count == &labels.scans.late;
+        page << (of_these ? formatCount(count) : formatCount(count, "scan")) << " " << info.words
+             << ". ";
+      },
+      labels.scans);
   if (labels.clock_restarts > 0)
     page << "The time stamps went back " << formatCount(labels.clock_restarts, "time") << ".";
   page << "</p>\n";
@@ -149,7 +147,7 @@ void writeCameraPictures(std::ostream& page, const RunRecord& record, const MapF
 
 void writeCameraLabels(std::ostream& page, const RunRecord& record) {
   if (!record.camera_labels) return;
-  const CameraLabels& labels = *record.camera_labels;
+  const CameraStatistics& labels = *record.camera_labels;
   page << "<h2>What became of the points in view</h2>\n";
   writePoints(page, labels.points);
   writeScans(page, labels);
@@ -166,10 +164,15 @@ std::string motionInWords(const RunRecord& record) {
       text += ", of which " + formatCount(registration->doubtful) + " fit poorly";
     text += ". ";
   }
-  if (const auto& deskew = record.deskew) {
-    text += "Scans de-skewed: " + formatCount(deskew->deskewed) +
-            ", not needed: " + formatCount(deskew->not_needed) +
-            ", not possible: " + formatCount(deskew->not_possible) + ". ";
+  if (record.deskew) {
+    std::string counts;
+    DeskewStatistics::visit(
+        [&](const StatisticInfo& info, std::size_t count) {
+          counts +=
+              (counts.empty() ? "" : ", ") + std::string(info.words) + ": " + formatCount(count);
+        },
+        *record.deskew);
+    text += counts + ". ";
   }
   return text;
 }

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "Html.h"
+#include <csom/report/Html.h>
 
 namespace csom {
 
@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Longer series are told in the table by their extent.
-constexpr std::size_t kMostRows = 60;
+constexpr std::size_t kMaxRows = 60;
 
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json();
@@ -103,13 +103,13 @@ std::string tableOfExtents(const XyChart& chart) {
   return html + "</tbody>";
 }
 
-std::string tableOf(const XyChart& chart) {
+std::string makeTable(const XyChart& chart) {
   std::size_t rows = 0;
   for (const ChartSeries& series : chart.series) rows += series.points.size();
-  return rows <= kMostRows ? tableOfPoints(chart) : tableOfExtents(chart);
+  return rows <= kMaxRows ? tableOfPoints(chart) : tableOfExtents(chart);
 }
 
-std::string tableOf(const BarChart& chart) {
+std::string makeTable(const BarChart& chart) {
   std::string html = "<thead><tr><th class=\"text\">" + head(chart.values) + "</th>";
   for (const BarSeries& series : chart.series) html += "<th>" + escapeHtml(series.name) + "</th>";
   html += "</tr></thead><tbody>\n";
@@ -142,7 +142,7 @@ std::string toHtml(const XyChart& chart) {
   for (const ChartSeries& s : chart.series) series.push_back(toJson(s, chart.x, chart.y));
   const Json data = {
       {"type", "xy"}, {"x", toJson(chart.x)}, {"y", toJson(chart.y)}, {"series", series}};
-  return figure(chart.title, chart.summary, data, tableOf(chart), 20);
+  return figure(chart.title, chart.summary, data, makeTable(chart), 20);
 }
 
 std::string toHtml(const BarChart& chart) {
@@ -163,7 +163,7 @@ std::string toHtml(const BarChart& chart) {
   const double bars =
       static_cast<double>(chart.categories.size() *
                           (chart.stacked ? 1 : std::max<std::size_t>(1, chart.series.size())));
-  return figure(chart.title, chart.summary, data, tableOf(chart),
+  return figure(chart.title, chart.summary, data, makeTable(chart),
                 chart.horizontal ? std::min(5 + 1.7 * bars, 60.0) : 20);
 }
 

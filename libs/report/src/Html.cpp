@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // HTML escaping, colours and base64.
-#include "Html.h"
+#include <csom/report/Html.h>
 
 #include <cstdio>
 

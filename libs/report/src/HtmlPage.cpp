@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "Html.h"
+#include <csom/report/Html.h>
 #include "WebAsset.h"
 
 namespace csom {

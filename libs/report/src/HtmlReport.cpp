@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include <csom/report/Html.h>
 #include "CameraSections.h"
-#include "Html.h"
 #include "TimingSection.h"
 #include "Viewer.h"
 
@@ -16,7 +16,7 @@ namespace csom {
 
 namespace {
 
-constexpr std::size_t kMostWarnings = 200;
+constexpr std::size_t kMaxWarnings = 200;
 
 std::string fileName(const std::string& path) {
   return path.substr(path.find_last_of('/') + 1);
@@ -194,12 +194,12 @@ void writeRejects(std::ostream& page, const RunRecord& record) {
       record.camera_labels ? record.camera_labels->points : CameraPointCounts{};
   list(cameras.unseenAndDropped(), "were hidden from the camera, or at a label border");
   list(cameras.low_confidence, "had a class that is less sure than <code>min_confidence</code>");
-  list(record.label_rejects.ignored + cameras.ignoredAndDropped(),
+  list(record.labels.ignored + cameras.ignoredAndDropped(),
        "had a label that the label set ignores");
-  list(record.label_rejects.unknown + cameras.unknownAndDropped(),
+  list(record.labels.unknown + cameras.unknownAndDropped(),
        "had a label that the label set does not know, or that means free");
-  list(record.label_rejects.missing, "had no label");
-  list(record.label_rejects.ambiguous, "had several labels");
+  list(record.labels.missing, "had no label");
+  list(record.labels.ambiguous, "had several labels");
   page << "</ul>\n";
 }
 
@@ -211,9 +211,9 @@ void writeKept(std::ostream& page, const RunRecord& record) {
          << (outside == 1 ? "was" : "were")
          << " left out, as <code>outside_view = drop</code> has it: what lies there is missing in "
             "the map.</p>\n";
-  if (record.kept_unlabelled > 0)
-    page << "<p>" << formatCount(record.kept_unlabelled, "point") << " without a usable label of "
-         << (record.kept_unlabelled == 1 ? "its" : "their")
+  if (record.labels.keptUnlabelled() > 0)
+    page << "<p>" << formatCount(record.labels.keptUnlabelled(), "point")
+         << " without a usable label of " << (record.labels.keptUnlabelled() == 1 ? "its" : "their")
          << " own went into the map as the class of unlabelled points.</p>\n";
   if (record.no_returns > 0)
     page << "<p>" << formatCount(record.no_returns, "beam")
@@ -240,11 +240,11 @@ void writeWarnings(std::ostream& page, const std::vector<std::string>& warnings)
     return;
   }
   page << "<p>" << formatCount(warnings.size(), "warning") << ":</p>\n<ul class=\"warnings\">\n";
-  for (std::size_t i = 0; i < std::min(warnings.size(), kMostWarnings); ++i)
+  for (std::size_t i = 0; i < std::min(warnings.size(), kMaxWarnings); ++i)
     page << "<li>" << escapeHtml(warnings[i]) << "</li>\n";
   page << "</ul>\n";
-  if (warnings.size() > kMostWarnings)
-    page << "<p>" << formatCount(warnings.size() - kMostWarnings)
+  if (warnings.size() > kMaxWarnings)
+    page << "<p>" << formatCount(warnings.size() - kMaxWarnings)
          << " more are in <code>run.json</code>.</p>\n";
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr int kLine = 22;
 constexpr int kSwatch = 14;
 constexpr int kGap = 8;
-constexpr std::size_t kMostClasses = 30;
+constexpr std::size_t kMaxShownClasses = 30;
 constexpr std::size_t kLongestName = 26;
 
 std::string shorten(const std::string& name) {
@@ -37,7 +37,7 @@ void Legend::addClasses(const DrawnMap& drawn, const LabelSet& labels,
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
 
-  const std::size_t shown = std::min(sorted.size(), kMostClasses);
+  const std::size_t shown = std::min(sorted.size(), kMaxShownClasses);
   for (std::size_t i = 0; i < shown; ++i)
     entries_.push_back({shorten(classOf(labels, sorted[i].first).name), colors[sorted[i].first]});
   if (shown < sorted.size())

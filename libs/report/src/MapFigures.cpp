@@ -26,7 +26,7 @@ std::vector<ClassFigures> classesOf(const LabelSet& labels, const Options& optio
   return figures;
 }
 
-Eigen::AlignedBox3d boundsOf(const SemanticMap& map) {
+Eigen::AlignedBox3d computeBounds(const SemanticMap& map) {
   const auto box = map.boundingBox();
   if (!box) return {};
   const VoxelIndex beyond{box->max.x + 1, box->max.y + 1, box->max.z + 1};
@@ -43,7 +43,7 @@ MapFiguresSum::MapFiguresSum(const LabelSet& labels, const Options& options) {
 void MapFiguresSum::add(const SemanticMap& part) {
   sum_.chunks += part.chunks().chunkCount();
   sum_.memory_bytes += part.memoryBytes();
-  sum_.bounds.extend(boundsOf(part));
+  sum_.bounds.extend(computeBounds(part));
   part.forEachVoxel([&](const VoxelIndex&, const DirichletVoxel& voxel) {
     ++sum_.known_voxels;
     const ClassId k = voxel.mostLikelyClass();
@@ -68,7 +68,7 @@ MapFigures MapFiguresSum::figures(const std::string& digest) const {
   return figures;
 }
 
-MapFigures figuresOf(const MapDocument& document) {
+MapFigures computeFigures(const MapDocument& document) {
   MapFiguresSum sum(document.labels, document.map.options());
   sum.add(document.map);
   return sum.figures(mapDigest(document.map));

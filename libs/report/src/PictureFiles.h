@@ -2,7 +2,7 @@
 // Names of the files with pictures.
 #pragma once
 
-#include <csom/report/CameraRecord.h>
+#include <csom/report/CameraPicture.h>
 #include <csom/report/MapPicture.h>
 
 #include <string>

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
+#include "StatisticsJson.h"
 #include "TimingSummary.h"
 
 namespace csom {
@@ -18,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 /// Points that the map never saw.
 std::size_t droppedForLabel(const RunRecord& record) {
-  return record.label_rejects.total() +
+  return record.labels.dropped() +
          (record.camera_labels ? record.camera_labels->points.dropped() : 0);
 }
 
@@ -89,14 +90,14 @@ Json totalsJson(const RunRecord& record) {
                {"observations_inserted", record.scans.size()},
                {"points", pointsRead(record)},
                {"rejected", pointsRejected(record)},
-               {"kept_unlabelled", record.kept_unlabelled},
+               {"kept_unlabelled", record.labels.keptUnlabelled()},
                {"no_returns", record.no_returns}};
   if (record.camera_labels) json["outside_view"] = record.camera_labels->points.outsideAndDropped();
   Json rejects = rejectsJson(total);
-  rejects["no-label"] = record.label_rejects.missing;
-  rejects["unknown-label"] = record.label_rejects.unknown;
-  rejects["ignored-label"] = record.label_rejects.ignored;
-  rejects["several-labels"] = record.label_rejects.ambiguous;
+  rejects["no-label"] = record.labels.missing;
+  rejects["unknown-label"] = record.labels.unknown;
+  rejects["ignored-label"] = record.labels.ignored;
+  rejects["several-labels"] = record.labels.ambiguous;
   if (record.camera_labels) addCameraRejects(rejects, record.camera_labels->points);
   json["rejects"] = rejects;
   visitReport(total, [&](const std::string& name, const auto& field) {
@@ -143,57 +144,38 @@ Json mapJson(const MapFigures& figures) {
 }
 
 Json imagesJson(const ImageCounts& images) {
-  return {{"read", images.read},
-          {"used", images.used},
-          {"network_runs", images.network_runs},
-          {"from_cache", images.from_cache},
-          {"unused", images.unused},
-          {"refused", images.refused}};
+  Json json = statisticsToJson(images);
+  json["unused"] = images.unused();
+  return json;
 }
 
 Json cameraLabelsJson(const RunRecord& record) {
-  const CameraLabels& labels = *record.camera_labels;
-  const CameraPointCounts& points = labels.points;
+  const CameraStatistics& labels = *record.camera_labels;
   const std::optional<double> added = addedShare(record);
   Json cameras = Json::array();
-  for (const CameraSource& camera : labels.cameras)
+  for (const CameraStatistics::Camera& camera : labels.cameras)
     cameras.push_back({{"sensor_label", camera.sensor_label},
                        {"source", camera.source},
                        {"images", imagesJson(camera.images)}});
-  return {{"images", imagesJson(totalImages(labels))},
-          {"scans",
-           {{"labelled", labels.scans.labelled},
-            {"without_image", labels.scans.without_image},
-            {"late", labels.scans.late}}},
-          {"clock_restarts", labels.clock_restarts},
-          {"points",
-           {{"labelled", points.labelled},
-            {"outside_view", points.outside_view},
-            {"hidden", points.hidden},
-            {"at_edge", points.at_edge},
-            {"low_confidence", points.low_confidence},
-            {"ignored", points.ignored},
-            {"unknown", points.unknown},
-            {"kept_unlabelled", points.kept_unlabelled}}},
-          {"seconds",
-           {{"network", labels.seconds.network},
-            {"image_decoding", labels.seconds.image_decoding},
-            {"labelling", labels.seconds.labelling}}},
-          {"added_share", added ? Json(*added) : Json()},
-          {"cameras", cameras}};
+  Json json = {{"images", imagesJson(labels.images())}};
+  json.update(statisticsToJson(labels));
+  json["added_share"] = added ? Json(*added) : Json();
+  json["cameras"] = cameras;
+  return json;
+}
+
+/// The report of a scan or of several, with its reasons of rejection apart.
+Json reportJson(const ScanReport& report) {
+  Json json = Json::object();
+  visitReport(report, [&](const std::string& name, const auto& field) { json[name] = field; });
+  return json;
 }
 
 /// Sections that only some runs have.
 void addCameraSections(Json& json, const RunRecord& record) {
   if (record.camera_labels) json["camera_labels"] = cameraLabelsJson(record);
-  if (record.deskew)
-    json["deskew"] = {{"deskewed", record.deskew->deskewed},
-                      {"not_needed", record.deskew->not_needed},
-                      {"not_possible", record.deskew->not_possible}};
-  if (record.registration)
-    json["registration"] = {{"scans", record.registration->scans},
-                            {"doubtful", record.registration->doubtful},
-                            {"seconds", record.registration->seconds}};
+  if (record.deskew) json["deskew"] = statisticsToJson(*record.deskew);
+  if (record.registration) json["registration"] = statisticsToJson(*record.registration);
 }
 
 }  // namespace
@@ -209,23 +191,6 @@ Json classesToJson(const std::vector<ClassFigures>& classes) {
                     {"share", c.share},
                     {"mean_probability", c.mean_probability}});
   return json;
-}
-
-std::vector<Parameter> parametersOf(const Options& options) {
-  std::vector<Parameter> parameters;
-  visitOptions(options,
-               [&](const char* name, const auto& field, const char* unit, const char* help) {
-                 using Field = std::decay_t<decltype(field)>;
-                 Parameter parameter{name, std::string(), unit, help};
-                 if constexpr (std::is_same_v<Field, bool> || std::is_same_v<Field, double>)
-                   parameter.value = field;
-                 else if constexpr (std::is_integral_v<Field>)
-                   parameter.value = static_cast<std::int64_t>(field);
-                 else
-                   parameter.value = toString(field);
-                 parameters.push_back(std::move(parameter));
-               });
-  return parameters;
 }
 
 std::string toText(const Parameter& parameter) {
@@ -249,21 +214,8 @@ std::size_t pointsRead(const RunRecord& record) {
 }
 
 std::size_t pointsRejected(const RunRecord& record) {
-  return totals(record).rejectedTotal() + record.label_rejects.total() +
+  return totals(record).rejectedTotal() + record.labels.dropped() +
          (record.camera_labels ? record.camera_labels->points.rejected() : 0);
-}
-
-ImageCounts totalImages(const CameraLabels& labels) {
-  ImageCounts sum;
-  for (const CameraSource& camera : labels.cameras) {
-    sum.read += camera.images.read;
-    sum.used += camera.images.used;
-    sum.network_runs += camera.images.network_runs;
-    sum.from_cache += camera.images.from_cache;
-    sum.unused += camera.images.unused;
-    sum.refused += camera.images.refused;
-  }
-  return sum;
 }
 
 std::optional<double> addedShare(const RunRecord& record) {
@@ -287,6 +239,8 @@ std::string toJson(const RunRecord& record, const MapFigures& figures) {
                {"parameter_meanings", meaningsJson(record.parameters)},
                {"wall_seconds", record.wall_seconds},
                {"totals", totalsJson(record)},
+               {"unused", reportJson(record.unused)},
+               {"labels", statisticsToJson(record.labels)},
                {"refused", refusedJson(record.refused)},
                {"warnings", record.warnings},
                {"timing_ms", timingJson(record)}};

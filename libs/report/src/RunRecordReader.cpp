@@ -12,6 +12,7 @@
 
 #include "JsonFields.h"
 #include "PictureFiles.h"
+#include "StatisticsJson.h"
 
 namespace csom {
 
@@ -56,38 +57,25 @@ std::vector<RunScan> readScans(const JsonFields& run, const std::vector<ScanReco
   return result;
 }
 
-ImageCounts readImages(const JsonFields& images) {
-  ImageCounts counts;
-  counts.read = images.count("read");
-  counts.used = images.count("used");
-  counts.network_runs = images.count("network_runs");
-  counts.from_cache = images.count("from_cache");
-  counts.unused = images.count("unused");
-  counts.refused = images.count("refused");
-  return counts;
+CameraStatistics readCameraLabels(const JsonFields& json) {
+  auto labels = statisticsFromJson<CameraStatistics>(json);
+  for (const JsonFields& camera : json.objects("cameras"))
+    labels.cameras.push_back({camera.text("sensor_label"),
+                              camera.text("source"),
+                              statisticsFromJson<ImageCounts>(camera.object("images")),
+                              {}});
+  return labels;
 }
 
-CameraLabels readCameraLabels(const JsonFields& json) {
-  CameraLabels labels;
-  for (const JsonFields& camera : json.objects("cameras"))
-    labels.cameras.push_back(
-        {camera.text("sensor_label"), camera.text("source"), readImages(camera.object("images"))});
-  const JsonFields scans = json.object("scans");
-  labels.scans = {scans.count("labelled"), scans.count("without_image"), scans.count("late")};
-  labels.clock_restarts = json.count("clock_restarts");
-  const JsonFields points = json.object("points");
-  labels.points.labelled = points.count("labelled");
-  labels.points.outside_view = points.count("outside_view");
-  labels.points.hidden = points.count("hidden");
-  labels.points.at_edge = points.count("at_edge");
-  labels.points.low_confidence = points.count("low_confidence");
-  labels.points.ignored = points.count("ignored");
-  labels.points.unknown = points.count("unknown");
-  labels.points.kept_unlabelled = points.count("kept_unlabelled");
-  const JsonFields seconds = json.object("seconds");
-  labels.seconds = {seconds.number("network"), seconds.number("image_decoding"),
-                    seconds.number("labelling")};
-  return labels;
+ScanReport readReport(const JsonFields& json) {
+  ScanReport report;
+  visitReport(report, [&](const std::string& name, auto& field) {
+    if constexpr (std::is_integral_v<std::decay_t<decltype(field)>>)
+      field = json.count(name.c_str());
+    else
+      field = json.number(name.c_str());
+  });
+  return report;
 }
 
 std::vector<CameraPicture> readPictures(const JsonFields& run) {
@@ -111,53 +99,8 @@ std::vector<CameraPicture> readPictures(const JsonFields& run) {
   return pictures;
 }
 
-/// a − b of counts that must not go below zero.
-std::size_t difference(const JsonFields& json, const std::string& name, std::size_t a,
-                       std::size_t b) {
-  if (a < b)
-    json.fail("totals." + name,
-              "is " + std::to_string(a) + ", less than its parts (" + std::to_string(b) + ")");
-  return a - b;
-}
-
-/// What the totals count beyond the scans and the cameras.
-void readRejects(const JsonFields& run, RunRecord& record) {
-  const JsonFields totals = run.object("totals");
-  const JsonFields rejects = totals.object("rejects");
-  const CameraPointCounts cameras =
-      record.camera_labels ? record.camera_labels->points : CameraPointCounts{};
-  record.kept_unlabelled = totals.count("kept_unlabelled");
-  record.no_returns = totals.count("no_returns");
-  record.label_rejects.missing = rejects.count("no-label");
-  record.label_rejects.ambiguous = rejects.count("several-labels");
-  record.label_rejects.unknown = difference(
-      run, "rejects.unknown-label", rejects.count("unknown-label"), cameras.unknownAndDropped());
-  record.label_rejects.ignored = difference(
-      run, "rejects.ignored-label", rejects.count("ignored-label"), cameras.ignoredAndDropped());
-
-  ScanReport of_scans;
-  for (const RunScan& scan : record.scans) of_scans += scan.record.report;
-  record.unused = {};
-  record.unused.points =
-      difference(run, "points", totals.count("points"),
-                 of_scans.points + record.label_rejects.total() + cameras.dropped());
-  for (std::size_t i = 0; i < kRejectReasons; ++i) {
-    const char* reason = toString(static_cast<RejectReason>(i));
-    record.unused.rejected[i] = difference(run, "rejects." + std::string(reason),
-                                           rejects.count(reason), of_scans.rejected[i]);
-  }
-  visitReports(
-      [&](const std::string& name, auto& unused, const auto& scans) {
-        if constexpr (std::is_integral_v<std::decay_t<decltype(unused)>>) {
-          if (name != "points" && name.rfind("rejected_", 0) != 0)
-            unused = difference(run, name, totals.count(name.c_str()), scans);
-        }
-      },
-      record.unused, of_scans);
-}
-
 MapFigures readFigures(const JsonFields& run, const MapDocument& document) {
-  MapFigures figures = figuresOf(document);
+  MapFigures figures = computeFigures(document);
   const JsonFields map = run.object("map");
   const std::string recorded = map.text("digest");
   const std::string& found = figures.digest;
@@ -190,20 +133,15 @@ RunRecord readRecord(const JsonFields& run, const MapDocument& document) {
         {refused.text("observation_class"), refused.text("reason"), refused.count("count")});
   if (run.has("camera_labels"))
     record.camera_labels = readCameraLabels(run.object("camera_labels"));
-  if (run.has("deskew")) {
-    const JsonFields deskew = run.object("deskew");
-    record.deskew = DeskewCounts{deskew.count("deskewed"), deskew.count("not_needed"),
-                                 deskew.count("not_possible")};
-  }
-  if (run.has("registration")) {
-    const JsonFields done = run.object("registration");
-    record.registration =
-        RegistrationRecord{done.count("scans"), done.count("doubtful"), done.number("seconds")};
-  }
+  if (run.has("deskew")) record.deskew = statisticsFromJson<DeskewStatistics>(run.object("deskew"));
+  if (run.has("registration"))
+    record.registration = statisticsFromJson<RegistrationStatistics>(run.object("registration"));
   record.pictures = readPictures(run);
   record.warnings = run.texts("warnings");
   record.wall_seconds = run.number("wall_seconds");
-  readRejects(run, record);
+  record.unused = readReport(run.object("unused"));
+  record.labels = statisticsFromJson<LabelCounts>(run.object("labels"));
+  record.no_returns = run.object("totals").count("no_returns");
   return record;
 }
 

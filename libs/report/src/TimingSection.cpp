@@ -17,7 +17,7 @@ namespace csom {
 
 namespace {
 
-constexpr std::size_t kMostPoints = 1500;
+constexpr std::size_t kMaxPoints = 1500;
 
 struct Stage {
   const char* name;
@@ -30,7 +30,8 @@ constexpr std::array<Stage, 4> kStages{
      {"adding to the map", [](const RunScan& s) { return s.record.report.commit_ms; }}}};
 
 /// Of a long run the slowest one of several observations in succession.
-ChartSeries seriesOf(const Stage& stage, const std::vector<RunScan>& scans, std::size_t together) {
+ChartSeries makeSeries(const Stage& stage, const std::vector<RunScan>& scans,
+                       std::size_t together) {
   ChartSeries series{stage.name, {}, ChartSeries::Marks::Line, false};
   for (std::size_t i = 0; i < scans.size(); i += together) {
     double slowest = 0;
@@ -42,7 +43,7 @@ ChartSeries seriesOf(const Stage& stage, const std::vector<RunScan>& scans, std:
 }
 
 std::string timeOfEachScan(const std::vector<RunScan>& scans) {
-  const std::size_t together = (scans.size() + kMostPoints - 1) / kMostPoints;
+  const std::size_t together = (scans.size() + kMaxPoints - 1) / kMaxPoints;
   XyChart chart;
   chart.title = "Time of each observation";
   chart.summary = together == 1
@@ -52,7 +53,7 @@ std::string timeOfEachScan(const std::vector<RunScan>& scans) {
                             formatCount(together) + " in succession.";
   chart.x = {"observation", "", false, 1.0, std::nullopt};
   chart.y = {"time", "ms", false, 0.0, std::nullopt};
-  for (const Stage& stage : kStages) chart.series.push_back(seriesOf(stage, scans, together));
+  for (const Stage& stage : kStages) chart.series.push_back(makeSeries(stage, scans, together));
   return toHtml(chart);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using Line = std::vector<Eigen::Vector3d>;
 
-constexpr std::size_t kMostPoints = 4000;
+constexpr std::size_t kMaxPoints = 4000;
 constexpr double kSmallestStep = 1e-3;  // [m]
 constexpr double kSmallestJump = 5.0;   // [m]
 
@@ -55,8 +55,7 @@ std::vector<Line> trajectories3d(const RunRecord& record) {
   }
   std::vector<Line> lines;
   for (const auto& [sensor, line] : by_sensor)
-    for (const Line& piece : pieces(line))
-      lines.push_back(thinned(piece, points / kMostPoints + 1));
+    for (const Line& piece : pieces(line)) lines.push_back(thinned(piece, points / kMaxPoints + 1));
   return lines;
 }
 

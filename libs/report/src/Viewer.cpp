@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "Html.h"
+#include <csom/report/Html.h>
 #include "ViewerModel.h"
 #include "WebAsset.h"
 

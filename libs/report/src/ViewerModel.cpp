@@ -26,7 +26,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A tile costs the browser some kilobytes, however empty it is.
-constexpr std::size_t kMostTiles = 15'000;
+constexpr std::size_t kMaxTiles = 15'000;
 
 /// The box without the outermost cubes, which may be far away.
 Json focusOf(const std::vector<Cube>& cubes) {
@@ -43,7 +43,7 @@ Json focusOf(const std::vector<Cube>& cubes) {
   return {{"low", low}, {"high", high}};
 }
 
-Json layersOf(const std::vector<Cube>& cubes, const SignedAxis& up) {
+Json makeLayers(const std::vector<Cube>& cubes, const SignedAxis& up) {
   std::int32_t low = std::numeric_limits<std::int32_t>::max(), high = -low;
   for (const Cube& cube : cubes) {
     const std::array<std::int32_t, 3> place = cube.index();
@@ -82,7 +82,7 @@ Json classNamesOf(const MapDocument& document) {
   return names;
 }
 
-Json trajectoriesOf(const RunRecord& record, double cube_edge) {
+Json makeTrajectories(const RunRecord& record, double cube_edge) {
   Json trajectories = Json::array();
   for (const std::vector<Eigen::Vector3d>& places : trajectories3d(record)) {
     Json points = Json::array();
@@ -115,7 +115,7 @@ std::vector<std::uint8_t> deflated(const std::vector<std::uint8_t>& bytes) {
 ViewerModel viewerModel(const MapDocument& document, const RunRecord& record,
                         std::size_t most_cubes) {
   ViewerModel model;
-  const int level = cubeLevel(document.map, most_cubes, kMostTiles);
+  const int level = cubeLevel(document.map, most_cubes, kMaxTiles);
   const CubePacker packer(document.map, level);
   model.cubes = packer.cubes().size();
   model.voxels_per_cube = 1 << level;
@@ -130,12 +130,12 @@ ViewerModel viewerModel(const MapDocument& document, const RunRecord& record,
                        {"voxelsPerCube", model.voxels_per_cube},
                        {"up", {{"axis", up.axis}, {"sign", up.sign}}},
                        {"focus", focusOf(packer.cubes())},
-                       {"layers", layersOf(packer.cubes(), up)},
+                       {"layers", makeLayers(packer.cubes(), up)},
                        {"classes", classesOf(packer, document.labels)},
                        {"classNames", classNamesOf(document)},
                        {"variance", rangeJson(packer.variance())},
                        {"evidence", rangeJson(packer.evidence())},
-                       {"trajectories", trajectoriesOf(record, edge)}};
+                       {"trajectories", makeTrajectories(record, edge)}};
   model.header = header.dump(-1, ' ', false, Json::error_handler_t::replace);
   model.data = deflated(packer.pack());
   return model;

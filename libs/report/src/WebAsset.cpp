@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "Html.h"
+#include <csom/report/Html.h>
 
 namespace csom {
 

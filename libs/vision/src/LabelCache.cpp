@@ -78,7 +78,7 @@ std::optional<std::vector<std::uint8_t>> bytesOf(const std::string& file) {
 
 /// Stands behind the PNG, where no decoder looks: a file that was changed, or that has come under
 /// the name of another image, is not believed.
-std::string sealOf(const std::string& key, const std::uint8_t* png, std::size_t size) {
+std::string computeSeal(const std::string& key, const std::uint8_t* png, std::size_t size) {
   return Hasher().text(key).bytes(png, size).digits();
 }
 
@@ -109,7 +109,7 @@ void writeAtOnce(const std::string& file, const std::vector<std::uint8_t>& bytes
 }
 
 /// Of everything that decides on what a network says about an image.
-std::string hashOf(const NetworkDescription& network) {
+std::string computeHash(const NetworkDescription& network) {
   Hasher hasher;
   hasher.number(kFormat);
   for (const std::string& file : {network.model, network.config}) {
@@ -129,7 +129,9 @@ std::string hashOf(const NetworkDescription& network) {
 }  // namespace
 
 LabelCache::LabelCache(std::string folder, const NetworkDescription& description)
-    : folder_(std::move(folder)), description_(description), network_hash_(hashOf(description)) {
+    : folder_(std::move(folder)),
+      description_(description),
+      network_hash_(computeHash(description)) {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (!fs::is_directory(folder_)) throw FileError(folder_, "cannot be made a folder for labels");
@@ -153,7 +155,7 @@ std::shared_ptr<const SemanticImage> LabelCache::find(const cv::Mat& image,
   auto bytes = bytesOf(fileOf(key));
   if (!bytes || bytes->size() <= kSealSize) return nullptr;
   const std::size_t size = bytes->size() - kSealSize;
-  const std::string seal = sealOf(key, bytes->data(), size);
+  const std::string seal = computeSeal(key, bytes->data(), size);
   if (!std::equal(seal.begin(), seal.end(), bytes->end() - kSealSize)) return nullptr;
   bytes->resize(size);
   try {
@@ -173,7 +175,7 @@ void LabelCache::store(const cv::Mat& image, const SemanticImage& labels) const 
   // With OpenCV's settings: others make smaller files, but take longer to read.
   if (!cv::imencode(".png", detail::storedForm(labels), bytes))
     throw FileError(file, "cannot be written: the output of the network is too large for a PNG");
-  const std::string seal = sealOf(key, bytes.data(), bytes.size());
+  const std::string seal = computeSeal(key, bytes.data(), bytes.size());
   bytes.insert(bytes.end(), seal.begin(), seal.end());
   writeAtOnce(file, bytes);
 }

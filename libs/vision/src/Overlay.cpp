@@ -13,7 +13,7 @@ namespace csom {
 
 namespace {
 
-constexpr int kLeastWidth = 640;
+constexpr int kMinWidth = 640;
 /// The image under the points has little contrast and no black, for bright and dark class colours
 /// to stand out alike.
 constexpr double kContrast = 0.35;
@@ -111,7 +111,7 @@ cv::Mat drawLabelledPoints(const cv::Mat& image, const CameraView& view, int vie
 
   cv::Mat picture;
   toBgr(image).convertTo(picture, -1, kContrast, kDarkest);
-  const int scale = std::max(1, (kLeastWidth + image.cols - 1) / image.cols);
+  const int scale = std::max(1, (kMinWidth + image.cols - 1) / image.cols);
   cv::resize(picture, picture, {}, scale, scale, cv::INTER_LINEAR);
   const std::vector<Dot> dots = dotsOf(view, view_number, points, labelled, colors);
   const double radius = dots.empty() ? 0 : radiusOf(picture.size(), dots.size());

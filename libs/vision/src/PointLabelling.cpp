@@ -19,11 +19,6 @@ using Mode = PointLabellingOptions::LabelMode;
 using LowConfidence = PointLabellingOptions::LowConfidence;
 using SeveralCameras = PointLabellingOptions::SeveralCameras;
 
-void require(bool holds, const char* key, double value, const char* accepted) {
-  if (!holds)
-    throw OptionError(std::string(key) + " = " + toString(value) + ": expected " + accepted);
-}
-
 /// Those of the points that lie in the image of one camera.
 class PointsInView {
  public:
@@ -192,14 +187,7 @@ void Labeller::label(std::size_t point) {
 }  // namespace
 
 void PointLabellingOptions::validate() const {
-  require(std::isfinite(temperature) && temperature > 0, "temperature", temperature,
-          "a number greater than 0");
-  require(min_confidence >= 0 && min_confidence <= 1, "min_confidence", min_confidence,
-          "a number from 0 to 1");
-  require(std::isfinite(visibility_margin) && visibility_margin >= 0, "visibility_margin",
-          visibility_margin, "a length in metres, at least 0");
-  require(edge_margin >= 0 && edge_margin <= 100, "edge_margin", edge_margin,
-          "a number of pixels from 0 to 100");
+  requireInRanges([&](auto&& visitor) { visit(*this, visitor); });
 }
 
 const char* toString(PointFate fate) {

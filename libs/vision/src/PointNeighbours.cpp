@@ -51,7 +51,7 @@ PointGrid::PointGrid(const std::vector<ProjectedPoint>& points, cv::Size image_s
   for (const ProjectedPoint& point : points) {
     cells.push_back(index(cellOf(point.pixel.x(), columns_), cellOf(point.pixel.y(), rows_)));
     std::size_t& count = starts_[cells.back() + 1];
-    count = std::min(count + 1, kMostInCell);
+    count = std::min(count + 1, kMaxInCell);
   }
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
   points_.resize(starts_.back());
@@ -83,8 +83,8 @@ Eigen::Vector2f typicalSpacing(const std::vector<ProjectedPoint>& points, const 
   return spacing;
 }
 
-std::vector<Neighbours> neighboursOf(const std::vector<ProjectedPoint>& points, cv::Size image_size,
-                                     float least_reach) {
+std::vector<Neighbours> findNeighbours(const std::vector<ProjectedPoint>& points,
+                                       cv::Size image_size, float least_reach) {
   // Wider than half a spacing, so that the strip meets every ring that crosses it.
   constexpr float kHalfWidth = 0.8F;
   constexpr float kReach = 1.5F;

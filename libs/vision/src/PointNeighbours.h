@@ -37,7 +37,7 @@ class PointGrid {
   }
 
  private:
-  static constexpr std::size_t kMostInCell = 64;
+  static constexpr std::size_t kMaxInCell = 64;
 
   int cellOf(float coordinate, int cells) const {
     return std::clamp(static_cast<int>((coordinate + 0.5F) / cell_), 0, cells - 1);
@@ -77,7 +77,7 @@ using Neighbours = std::array<int, kDirections>;
 
 /// The next point in each direction: in the quarter of the plane around it and in a strip about as
 /// wide as points are apart, not farther than one and a half spacings or `least_reach`.
-std::vector<Neighbours> neighboursOf(const std::vector<ProjectedPoint>& points, cv::Size image_size,
-                                     float least_reach);
+std::vector<Neighbours> findNeighbours(const std::vector<ProjectedPoint>& points,
+                                       cv::Size image_size, float least_reach);
 
 }  // namespace csom::detail

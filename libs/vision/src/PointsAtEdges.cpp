@@ -60,7 +60,7 @@ class EdgeFinder {
         classes_(classes),
         edge_margin_(edge_margin),
         margin_(margin),
-        neighbours_(detail::neighboursOf(points, classes.size(), edge_margin)),
+        neighbours_(detail::findNeighbours(points, classes.size(), edge_margin)),
         steps_(points.size()) {
     labels_.reserve(points.size());
     for (const ProjectedPoint& point : points) labels_.push_back(labelAt(point.pixel));

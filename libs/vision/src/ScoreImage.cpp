@@ -85,7 +85,7 @@ ScoreImage::ScoreImage(const cv::Mat& distances, std::vector<ClassId> class_of_c
     throw std::invalid_argument("scores need the size of the image that they are of");
 }
 
-cv::Mat ScoreImage::distancesOf(const cv::Mat& logits) {
+cv::Mat ScoreImage::computeDistances(const cv::Mat& logits) {
   if (logits.dims != 3 || logits.type() != CV_32FC1 || logits.empty())
     throw std::invalid_argument("logits must be channels × rows × columns of 32-bit numbers");
   const int channels = logits.size[0];

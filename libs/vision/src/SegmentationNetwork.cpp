@@ -135,7 +135,7 @@ struct SegmentationNetwork::Network {
     const Shape shape{description.output_channels, rows, columns};
     cv::Mat scores(shape, CV_32FC1, values);
     if (description.output == Output::Probabilities) takeLogarithms(scores);
-    return ScoreImage::distancesOf(scores);
+    return ScoreImage::computeDistances(scores);
   }
 
   void checkIndex(const cv::Mat& grid) const {

@@ -17,7 +17,7 @@ int main() {
   scan.points = {{1, 2, 3}};
   scan.labels = {1};
   map.insert(scan);
-  const csom::MapFigures figures = csom::figuresOf({map, labels, {}, {}});
+  const csom::MapFigures figures = csom::computeFigures({map, labels, {}, {}});
   if (figures.occupied_voxels == 0) {
     std::fprintf(stderr, "a point was inserted, but no voxel is occupied\n");
     return 1;

@@ -2,40 +2,59 @@
 // Enumerations as words of ini files.
 #pragma once
 
-#include <csom/core/Options.h>
+#include <csom/core/OptionInfo.h>
 
 #include <array>
 #include <cstddef>
 #include <string>
+#include <type_traits>
 #include <utility>
 
-namespace csom::detail {
+namespace csom {
 
 /// Every value of an enumeration with the word that stands for it.
 template <class Enum, std::size_t N>
 using EnumWords = std::array<std::pair<Enum, const char*>, N>;
 
-template <class Enum, std::size_t N>
-std::string wordOf(const EnumWords<Enum, N>& words, Enum value) {
-  for (const auto& [candidate, word] : words) {
+/// To be specialised as EnumWords beside an enumeration, which then has all functions below.
+template <class Enum>
+constexpr std::array<std::pair<Enum, const char*>, 0> kWords{};
+
+template <class Enum, std::enable_if_t<(kWords<Enum>.size() > 0), int> = 0>
+std::string toString(Enum value) {
+  for (const auto& [candidate, word] : kWords<Enum>) {
     if (candidate == value) return word;
   }
   return "invalid";
 }
 
-/// Throws OptionError with the accepted words.
-template <class Enum, std::size_t N>
-void parseWord(const EnumWords<Enum, N>& words, const std::string& key, const std::string& text,
-               Enum& value) {
+/// "sparse | linear"
+template <class Enum, std::enable_if_t<(kWords<Enum>.size() > 0), int> = 0>
+std::string acceptedWords(Enum /*any value*/) {
   std::string accepted;
-  for (const auto& [candidate, word] : words) {
+  for (const auto& [value, word] : kWords<Enum>)
+    accepted += (accepted.empty() ? "" : " | ") + std::string(word);
+  return accepted;
+}
+
+/// Throws OptionError with the accepted words.
+template <class Enum, std::enable_if_t<(kWords<Enum>.size() > 0), int> = 0>
+void parse(const std::string& key, const std::string& text, Enum& value) {
+  for (const auto& [candidate, word] : kWords<Enum>) {
     if (text == word) {
       value = candidate;
       return;
     }
-    accepted += (accepted.empty() ? "" : " | ") + std::string(word);
   }
-  throw OptionError(key + " = " + text + ": expected " + accepted);
+  detail::rejectOption(key, text, acceptedWords(value));
 }
 
-}  // namespace csom::detail
+/// The help of an option, and what it accepts.
+template <class Field>
+std::string fullHelp(const OptionInfo& option, const Field& field) {
+  std::string text = option.help;
+  if constexpr (std::is_enum_v<Field>) text += ": " + acceptedWords(field);
+  return text + detail::rangeText(option.range);
+}
+
+}  // namespace csom

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace csom {
@@ -48,13 +49,44 @@ inline VoxelIndex voxelOfChunk(const ChunkIndex& c, int index_in_chunk) {
           c.z * kChunkSide + (index_in_chunk >> (2 * kChunkBits))};
 }
 
-/// `block_depth` is D_b: a block is 2^(D_b−1) voxels a side.
-inline std::int32_t blockOf(std::int32_t voxel, int block_depth) {
-  return voxel >> (block_depth - 1);
-}
-inline BlockIndex blockOf(const VoxelIndex& v, int block_depth) {
-  return {blockOf(v.x, block_depth), blockOf(v.y, block_depth), blockOf(v.z, block_depth)};
-}
+/// How blocks lie on the grid of voxels and in chunks: a block is 2^(D_b−1) voxels a side.
+class BlockLayout {
+ public:
+  /// `depth` is D_b, 1 … 4.
+  explicit constexpr BlockLayout(int depth) : bits_(depth - 1), side_(1 << bits_) {}
+
+  int side() const { return side_; }                          ///< voxels
+  int sideBits() const { return bits_; }                      ///< log₂ of it
+  int blocksPerChunk() const { return kChunkSide >> bits_; }  ///< along an axis
+
+  BlockIndex blockOf(const VoxelIndex& v) const {
+    return {v.x >> bits_, v.y >> bits_, v.z >> bits_};
+  }
+  /// The voxel at its lower corner.
+  VoxelIndex firstVoxel(const BlockIndex& b) const {
+    return {b.x * side_, b.y * side_, b.z * side_};
+  }
+
+  ChunkIndex chunkOf(const BlockIndex& b) const {
+    const int shift = kChunkBits - bits_;
+    return {b.x >> shift, b.y >> shift, b.z >> shift};
+  }
+  /// The block at its lower corner.
+  BlockIndex firstBlock(const ChunkIndex& c) const {
+    const int blocks = blocksPerChunk();
+    return {c.x * blocks, c.y * blocks, c.z * blocks};
+  }
+  /// Position of a block inside its chunk, x first.
+  std::size_t indexInChunk(const BlockIndex& b) const {
+    const int blocks = blocksPerChunk();
+    const int mask = blocks - 1;
+    return static_cast<std::size_t>(((b.z & mask) * blocks + (b.y & mask)) * blocks + (b.x & mask));
+  }
+
+ private:
+  int bits_;
+  int side_;
+};
 
 /// The voxel grid of edge `resolution` [m].
 class Grid {

@@ -1,163 +1,247 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every parameter of a map, in one plain struct. Numbers in brackets are the paper's equations.
+// Every parameter of a map, by the component that it belongs to. Numbers in brackets are the
+// paper's equations. Lengths in metres.
 #pragma once
 
-#include <cstdint>
-#include <stdexcept>
+#include <csom/core/EnumWords.h>
+#include <csom/core/Method.h>
+#include <csom/core/OptionInfo.h>
+#include <csom/core/types.h>
+
 #include <string>
 
 namespace csom {
 
-/// How a scan becomes counts; see docs/algorithm.md.
-enum class Method { SurfaceCsom, SeeCsom, SBki, SCsm };
 enum class Kernel { Sparse, Linear };
-/// Which training points a voxel listens to: all within the kernel length (eq. 21), or only those
+/// Which training points count for a voxel: all within the kernel length (eq. 21), or only those
 /// of its block and (where the block's class entropy exceeds 0.3) of the block's neighbours.
 enum class Neighbourhood { Radius, ExtendedBlock };
 /// None: voxels are never free. Sampled: points of class 0 along each beam. Raycast: every voxel
-/// that a beam crosses receives `free_weight` once a scan.
+/// that a beam crosses receives the same weight once a scan.
 enum class FreeSpace { None, Sampled, Raycast };
 
-/// Thrown for an option that cannot be; the message names the key, the value and the valid range.
-class OptionError : public std::invalid_argument {
- public:
-  using std::invalid_argument::invalid_argument;
+template <>
+inline constexpr EnumWords<Kernel, 2> kWords<Kernel>{
+    {{Kernel::Sparse, "sparse"}, {Kernel::Linear, "linear"}}};
+template <>
+inline constexpr EnumWords<Neighbourhood, 2> kWords<Neighbourhood>{
+    {{Neighbourhood::Radius, "radius"}, {Neighbourhood::ExtendedBlock, "extended-block"}}};
+template <>
+inline constexpr EnumWords<FreeSpace, 3> kWords<FreeSpace>{
+    {{FreeSpace::None, "none"}, {FreeSpace::Sampled, "sampled"}, {FreeSpace::Raycast, "raycast"}}};
+
+/// A length of the map's size, or none.
+constexpr Range kAnyLength{0, 1e7};
+
+/// Which points of a scan become training points.
+struct ScanOptions {
+  double ds_resolution = 0;
+  double min_range = 0;
+  double max_range = 0;
+
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& visitor) {
+    visitor(OptionInfo{"ds_resolution", "m", "one training point a cell of this edge, 0 keeps all",
+                       kAnyLength},
+            o.ds_resolution);
+    visitor(OptionInfo{"min_range", "m", "nearer points are rejected", kAnyLength}, o.min_range);
+    visitor(OptionInfo{"max_range", "m", "farther points are rejected, 0 = no limit", kAnyLength},
+            o.max_range);
+  }
 };
 
-/// All parameters with their defaults. Lengths in metres. `visitOptions` lists them by name: that
-/// list is what ini files, reports, map files and streams read and write.
-struct Options {
-  int number_of_classes = 2;  ///< K, class 0 = free included; 2 … 256
-  /// Class of what was hit but not recognised: its evidence counts for whichever other class the
-  /// voxel has, so that any label outvotes it. 0 = there is no such class.
-  int unlabelled_class_id = 0;
-  double resolution = 0.2;  ///< r, edge of a voxel [m]
-  int block_depth = 2;      ///< D_b; a block is 2^(D_b−1) voxels a side; 1 … 4
+/// How beams make voxels free.
+struct FreeSpaceOptions {
+  FreeSpace mode = FreeSpace::None;
+  double resolution = 0.5;
+  double weight = 0.1;
 
-  Method method = Method::SurfaceCsom;
-  bool rvfm = true;  ///< see-csom: redundant-voxel filter by context entropy (eqs. 4–9)
-  bool aklm = true;  ///< see-csom, surface-csom: length adapted by class entropy (eqs. 10–15)
-  Kernel kernel = Kernel::Sparse;
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& visitor) {
+    visitor(OptionInfo{"free_space", "", "how beams make voxels free"}, o.mode);
+    visitor(OptionInfo{"free_resolution", "m", "sampled: step between free points along a beam"},
+            o.resolution);
+    visitor(
+        OptionInfo{"free_weight", "", "raycast: evidence of free for a crossed voxel", {1e-3, 1e5}},
+        o.weight);
+  }
+};
+
+/// How much a point weighs for a voxel.
+struct KernelOptions {
+  Kernel shape = Kernel::Sparse;
+  bool aklm = true;
+  double length_min = 0;
+  double length_max = 0;
+  double length = 0;
+  double scale = 1;
+
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& visitor) {
+    visitor(OptionInfo{"kernel", "", "how the weight of a point falls with its distance"}, o.shape);
+    visitor(
+        OptionInfo{"aklm", "",
+                   "see-csom, surface-csom: kernel length adapted by class entropy, eqs. 10-15"},
+        o.aklm);
+    visitor(OptionInfo{"kernel_length_min", "m", "L_min of eq. 15, 0 = 3 x resolution"},
+            o.length_min);
+    visitor(OptionInfo{"kernel_length_max", "m", "L_max of eq. 15, 0 = 5 x resolution"},
+            o.length_max);
+    visitor(OptionInfo{"kernel_length", "m",
+                       "fixed length of s-bki and aklm = off, 0 = 3 x resolution"},
+            o.length);
+    visitor(OptionInfo{"kernel_scale", "", "epsilon 0 of eq. 19", {1e-3, 1e5}}, o.scale);
+  }
+};
+
+/// Method::SeeCsom (and what s-bki has of it).
+struct SeeCsomOptions {
+  bool rvfm = true;
   Neighbourhood neighbourhood = Neighbourhood::Radius;
+  double context_weight_self = 1;
+  double context_weight_neighbour = 0.8;
+  double context_threshold = 0.1;
+  int context_neighbours = 6;
 
-  double ds_resolution = 0.0;  ///< one training point a cell of this edge [m]; 0 keeps all
-  double min_range = 0.0;      ///< nearer points are rejected [m]
-  double max_range = 0.0;      ///< farther points are rejected [m]; 0 = no limit
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& visitor) {
+    visitor(OptionInfo{"rvfm", "", "see-csom: redundant-voxel filter by context entropy, eqs. 4-9"},
+            o.rvfm);
+    visitor(OptionInfo{"neighbourhood", "", "see-csom, s-bki: points that count for a voxel"},
+            o.neighbourhood);
+    visitor(OptionInfo{"context_weight_self", "", "omega 1 of eqs. 6, 7", {0, 100}},
+            o.context_weight_self);
+    visitor(OptionInfo{"context_weight_neighbour", "", "omega 2 of eqs. 6, 8", {0, 100}},
+            o.context_weight_neighbour);
+    visitor(OptionInfo{"context_threshold", "", "T_con of eq. 9", {0, 1}}, o.context_threshold);
+    visitor(OptionInfo{"context_neighbours", "", "blocks around a block: 6, 18 or 26"},
+            o.context_neighbours);
+  }
+};
 
-  FreeSpace free_space = FreeSpace::None;
-  double free_resolution = 0.5;  ///< sampled: step between free points along a beam [m]
-  double free_weight = 0.1;      ///< raycast: evidence of class 0 for a crossed voxel
+/// Method::SurfaceCsom; symbols are those of src/surface/SurfaceCsom.h.
+struct SurfaceOptions {
+  bool planes = true;
+  int neighbours = 8;
+  double reach = 1.8;
+  double gap = 5;
+  double thickness = 0.97;
+  double support = 0.55;
+  double hit_weight = 0.6;
+  double free_limit = 0.4;
+  double counter_evidence = 1;
 
-  double context_weight_self = 1.0;       ///< ω1 of eqs. 6, 7
-  double context_weight_neighbour = 0.8;  ///< ω2 of eqs. 6, 8
-  double context_threshold = 0.1;         ///< T_con of eq. 9
-  int context_neighbours = 6;             ///< neighbours in an extended block: 6, 18 or 26
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& visitor) {
+    visitor(OptionInfo{"surface_planes", "", "surface-csom: kernels lie along the local surface"},
+            o.planes);
+    visitor(OptionInfo{"surface_neighbours",
+                       "",
+                       "surface-csom: hits that tell the local surface of a hit",
+                       {3, 64}},
+            o.neighbours);
+    visitor(OptionInfo{"surface_reach",
+                       "",
+                       "surface-csom: kernel length, in units of the spacing of hits",
+                       {0.5, 4}},
+            o.reach);
+    visitor(OptionInfo{"surface_gap",
+                       "",
+                       "surface-csom: widest spacing that a plane spans, in units of "
+                       "max(ds_resolution, resolution)",
+                       {1, 8}},
+            o.gap);
+    visitor(OptionInfo{"surface_thickness",
+                       "",
+                       "surface-csom: of a plane, in voxels measured along its normal",
+                       {0.1, 10}},
+            o.thickness);
+    visitor(OptionInfo{"surface_support",
+                       "",
+                       "surface-csom: kernel mass that makes a voxel occupied by itself",
+                       {1e-3, 100}},
+            o.support);
+    visitor(OptionInfo{"surface_hit_weight",
+                       "",
+                       "surface-csom: additional mass for the voxel that a hit lies in",
+                       {0, 100}},
+            o.hit_weight);
+    visitor(OptionInfo{"surface_free_limit",
+                       "",
+                       "surface-csom, sampled: most evidence of free for a voxel by a scan",
+                       {0, 1000}},
+            o.free_limit);
+    visitor(OptionInfo{"counter_evidence",
+                       "",
+                       "surface-csom: weight of what speaks against a voxel beside a surface",
+                       {0, 100}},
+            o.counter_evidence);
+  }
+};
 
-  double kernel_length_min = 0.0;  ///< L_min of eq. 15 [m]; 0 = 3 r
-  double kernel_length_max = 0.0;  ///< L_max of eq. 15 [m]; 0 = 5 r
-  double kernel_length = 0.0;      ///< fixed L of s-bki and of aklm = off [m]; 0 = 3 r
-  double kernel_scale = 1.0;       ///< ε0 of eq. 19
-
-  bool surface_planes = true;       ///< surface-csom: kernels lie along the local surface
-  int surface_neighbours = 8;       ///< hits that tell the local surface of a hit
-  double surface_reach = 1.8;       ///< kernel length, in units of the spacing of hits
-  double surface_gap = 5;           ///< widest spacing that a plane spans, in max(ds, r)
-  double surface_thickness = 0.97;  ///< of a plane, in voxels measured along its normal
-  double surface_support = 0.55;    ///< τ, kernel mass that makes a voxel occupied by itself
-  double surface_hit_weight = 0.6;  ///< additional mass for the voxel that a hit lies in
-  double surface_free_limit = 0.4;  ///< sampled: most evidence of free for a voxel by a scan
-  double counter_evidence = 1;      ///< weight of what speaks against a voxel beside a surface
-
+/// All parameters with their defaults.
+struct Options {
+  int number_of_classes = 2;  ///< K, class 0 = free included
+  /// Class of what was hit but not recognised: its evidence counts for whichever other class the
+  /// voxel has, so that any label outvotes it.
+  int unlabelled_class_id = 0;
+  double resolution = 0.2;  ///< r, edge of a voxel
+  int block_depth = 2;      ///< D_b
+  Method method = Method::SurfaceCsom;
+  ScanOptions scan;
+  FreeSpaceOptions free_space;
+  KernelOptions kernel;
+  SeeCsomOptions see_csom;
+  SurfaceOptions surface;
   double prior = 0.001;  ///< σ0 of eq. 22, evidence that every class has beforehand
+  int threads = 1;       ///< does not change the map
 
-  int threads = 1;  ///< threads of one insertion; 0 = all processors. Does not change the map
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& visitor) {
+    visitor(OptionInfo{"resolution", "m", "edge of a voxel", {1e-4, 1e3}}, o.resolution);
+    visitor(OptionInfo{"number_of_classes",
+                       "",
+                       "classes, free included; taken from the label set",
+                       {2, kMaxClasses}},
+            o.number_of_classes);
+    visitor(OptionInfo{"unlabelled_class_id", "",
+                       "class that any label outvotes, 0 = none; taken from the label set"},
+            o.unlabelled_class_id);
+    visitor(OptionInfo{"block_depth", "", "a block is 2^(block_depth-1) voxels a side", {1, 4}},
+            o.block_depth);
+    visitor(OptionInfo{"method", "", "how a scan becomes counts"}, o.method);
+    ScanOptions::visit(o.scan, visitor);
+    FreeSpaceOptions::visit(o.free_space, visitor);
+    KernelOptions::visit(o.kernel, visitor);
+    SeeCsomOptions::visit(o.see_csom, visitor);
+    SurfaceOptions::visit(o.surface, visitor);
+    visitor(OptionInfo{"prior", "", "sigma 0 of eq. 22", {1e-9, 1e5}}, o.prior);
+    visitor(OptionInfo{"threads", "", "threads of one insertion, 0 = all processors", {0, 1024}},
+            o.threads);
+  }
 
-  /// Throws OptionError if any value is outside its range.
+  /// Throws OptionError if a value is outside its range, or does not go with another one.
   void validate() const;
 
+  // Kernel lengths, with their defaults filled in [m].
   double kernelLengthMin() const {
-    return kernel_length_min > 0 ? kernel_length_min : 3 * resolution;
+    return kernel.length_min > 0 ? kernel.length_min : 3 * resolution;
   }
   double kernelLengthMax() const {
-    return kernel_length_max > 0 ? kernel_length_max : 5 * resolution;
+    return kernel.length_max > 0 ? kernel.length_max : 5 * resolution;
   }
-  double kernelLengthFixed() const { return kernel_length > 0 ? kernel_length : 3 * resolution; }
-  bool usesContextEntropy() const { return method == Method::SeeCsom && rvfm; }
+  double kernelLengthFixed() const { return kernel.length > 0 ? kernel.length : 3 * resolution; }
+  bool usesContextEntropy() const { return method == Method::SeeCsom && see_csom.rvfm; }
   bool usesClassEntropy() const {
-    return (method == Method::SeeCsom || method == Method::SurfaceCsom) && aklm;
+    return (method == Method::SeeCsom || method == Method::SurfaceCsom) && kernel.aklm;
   }
 };
 
-/// Names as they stand in ini files: "see-csom", "radius", "on" … Parsing throws OptionError with
-/// the accepted words.
-std::string toString(Method value);
-std::string toString(Kernel value);
-std::string toString(Neighbourhood value);
-std::string toString(FreeSpace value);
-std::string toString(bool value);
-std::string toString(int value);
-std::string toString(double value);
-void parse(const std::string& key, const std::string& text, Method& value);
-void parse(const std::string& key, const std::string& text, Kernel& value);
-void parse(const std::string& key, const std::string& text, Neighbourhood& value);
-void parse(const std::string& key, const std::string& text, FreeSpace& value);
-void parse(const std::string& key, const std::string& text, bool& value);
-void parse(const std::string& key, const std::string& text, int& value);
-void parse(const std::string& key, const std::string& text, double& value);
-
-/// Calls `visitor(name, field, unit, help)` for every field, in order. `OptionsLike` is `Options&`
-/// or `const Options&`; names are the keys of ini files.
+/// Calls visitor(OptionInfo, field) for every field. `OptionsLike` is a struct of options, const or
+/// not.
 template <class OptionsLike, class Visitor>
-void visitOptions(OptionsLike& o, Visitor&& visitor) {
-  visitor("resolution", o.resolution, "m", "edge of a voxel");
-  visitor("number_of_classes", o.number_of_classes, "",
-          "classes, free included; taken from the label set");
-  visitor("unlabelled_class_id", o.unlabelled_class_id, "",
-          "class that any label outvotes, 0 = none; taken from the label set");
-  visitor("block_depth", o.block_depth, "", "a block is 2^(block_depth-1) voxels a side (1..4)");
-  visitor("method", o.method, "", "surface-csom | see-csom | s-bki | s-csm");
-  visitor("rvfm", o.rvfm, "", "see-csom: redundant-voxel filter by context entropy");
-  visitor("aklm", o.aklm, "", "see-csom, surface-csom: kernel length adapted by class entropy");
-  visitor("kernel", o.kernel, "", "sparse | linear");
-  visitor("neighbourhood", o.neighbourhood, "", "radius | extended-block");
-  visitor("ds_resolution", o.ds_resolution, "m",
-          "one training point a cell of this edge, 0 keeps all");
-  visitor("min_range", o.min_range, "m", "nearer points are rejected");
-  visitor("max_range", o.max_range, "m", "farther points are rejected, 0 = no limit");
-  visitor("free_space", o.free_space, "", "none | sampled | raycast");
-  visitor("free_resolution", o.free_resolution, "m",
-          "sampled: step between free points along a beam");
-  visitor("free_weight", o.free_weight, "", "raycast: evidence of free for a crossed voxel");
-  visitor("context_weight_self", o.context_weight_self, "", "omega 1 of eqs. 6, 7");
-  visitor("context_weight_neighbour", o.context_weight_neighbour, "", "omega 2 of eqs. 6, 8");
-  visitor("context_threshold", o.context_threshold, "", "T_con of eq. 9");
-  visitor("context_neighbours", o.context_neighbours, "", "blocks around a block: 6, 18 or 26");
-  visitor("kernel_length_min", o.kernel_length_min, "m", "L_min of eq. 15, 0 = 3 x resolution");
-  visitor("kernel_length_max", o.kernel_length_max, "m", "L_max of eq. 15, 0 = 5 x resolution");
-  visitor("kernel_length", o.kernel_length, "m",
-          "fixed length of s-bki and aklm = off, 0 = 3 x resolution");
-  visitor("kernel_scale", o.kernel_scale, "", "epsilon 0 of eq. 19");
-  visitor("surface_planes", o.surface_planes, "",
-          "surface-csom: kernels lie along the local surface");
-  visitor("surface_neighbours", o.surface_neighbours, "",
-          "surface-csom: hits that tell the local surface of a hit");
-  visitor("surface_reach", o.surface_reach, "",
-          "surface-csom: kernel length, in units of the spacing of hits");
-  visitor("surface_gap", o.surface_gap, "",
-          "surface-csom: widest spacing that a plane spans, in units of max(ds_resolution, "
-          "resolution)");
-  visitor("surface_thickness", o.surface_thickness, "",
-          "surface-csom: of a plane, in voxels measured along its normal");
-  visitor("surface_support", o.surface_support, "",
-          "surface-csom: kernel mass that makes a voxel occupied by itself");
-  visitor("surface_hit_weight", o.surface_hit_weight, "",
-          "surface-csom: additional mass for the voxel that a hit lies in");
-  visitor("surface_free_limit", o.surface_free_limit, "",
-          "surface-csom, sampled: most evidence of free for a voxel by a scan");
-  visitor("counter_evidence", o.counter_evidence, "",
-          "surface-csom: weight of what speaks against a voxel beside a surface");
-  visitor("prior", o.prior, "", "sigma 0 of eq. 22");
-  visitor("threads", o.threads, "", "threads of one insertion, 0 = all processors");
+void visitOptions(OptionsLike& options, Visitor&& visitor) {
+  OptionsLike::visit(options, visitor);
 }
 
 /// Sets the field called `key` from its text. Returns false if no field has that name; throws

@@ -25,10 +25,10 @@ struct TrainingPoint {
 /// A scan ready for inference. Points are grouped by block: those of blocks[b] are
 /// points[block_begin[b]] … points[block_begin[b+1]−1].
 struct PreparedScan {
-  int block_depth = 2;                ///< D_b of `blocks`; 1 for s-csm, whose block is the voxel
-  std::vector<TrainingPoint> points;  ///< hits, then free samples, of each block
-  std::vector<float> scores;          ///< soft scans: points × K, row-major; else empty
-  std::vector<BlockIndex> blocks;     ///< the observed blocks, ascending (z-major)
+  BlockLayout layout{2};                   ///< of `blocks`
+  std::vector<TrainingPoint> points;       ///< hits, then free samples, of each block
+  std::vector<float> scores;               ///< soft scans: points × K, row-major; else empty
+  std::vector<BlockIndex> blocks;          ///< the observed blocks, ascending (z-major)
   std::vector<std::uint32_t> block_begin;  ///< blocks.size() + 1 offsets into `points`
 
   /// What ray casting needs; filled for FreeSpace::Raycast only.

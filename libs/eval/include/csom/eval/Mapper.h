@@ -13,8 +13,8 @@ namespace csom {
 
 /// What a map says about a voxel.
 struct VoxelEstimate {
-  bool known = false;             ///< false: the map never heard of it, and the rest says nothing
-  double occupancy = 0.5;         ///< probability that it is occupied
+  bool known = false;      ///< false: the map has no evidence of it, and the rest says nothing
+  double occupancy = 0.5;  ///< probability that it is occupied
   ClassId class_id = kFreeClass;  ///< of an occupied voxel; kFreeClass if free or unknown
   /// λ of each class, free first; of a method without classes only [1 − occupancy, occupancy].
   std::vector<double> probabilities;

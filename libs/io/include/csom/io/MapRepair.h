@@ -15,10 +15,10 @@ struct MapVerification {
   std::size_t scans = 0;   ///< the same
   std::string digest;      ///< that of the intact chunks
   bool finished = true;    ///< false: the run that writes it has not come to its end
-  /// What is wrong, a line each, at most kMostFaults and one that counts the others. Empty: every
+  /// What is wrong, a line each, at most kMaxFaults and one that counts the others. Empty: every
   /// byte of a finished file is as it was written.
   std::vector<std::string> faults;
-  static constexpr std::size_t kMostFaults = 20;
+  static constexpr std::size_t kMaxFaults = 20;
 };
 
 /// Reads the whole file a chunk at a time. Throws FileError only if there is no such file, or if it

@@ -26,6 +26,6 @@ std::vector<std::string> checkApplicationIni(const std::string& file,
                                              const MrptApplication* application);
 
 /// Values of `logOutput_dir`, where programs of MRPT leave their results, in any section.
-std::vector<std::string> outputFoldersOf(const std::string& ini_file);
+std::vector<std::string> listOutputFolders(const std::string& ini_file);
 
 }  // namespace csom

@@ -5,9 +5,9 @@
 #include <csom/core/SemanticMap.h>
 #include <csom/io/LabelSet.h>
 #include <csom/io/MapFile.h>
-#include <csom/maps/CameraLabelledAdapter.h>
 #include <csom/maps/LabelOptions.h>
 #include <csom/maps/LabelRules.h>
+#include <csom/maps/LabelledScan.h>
 #include <csom/maps/LikelihoodOptions.h>
 #include <csom/maps/MrptCompatibility.h>
 #include <csom/maps/NearestVoxelField.h>
@@ -83,6 +83,27 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
     /// Class of all rays of 2-D scans, `drop`, or empty for unlabelled_class.
     std::string scan_2d_class;
 
+    template <class Self, class Visitor>
+    static void visit(Self& o, Visitor&& visitor) {
+      visitor(
+          OptionInfo{"point_labels", "",
+                     "where the labels of points are: nowhere (none); the intensity of a point "
+                     "is a raw id of the label set (intensity); its colour is exactly that of a "
+                     "class (color). Labels of pixels are used whenever an observation has them"},
+          o.point_labels);
+      visitor(
+          OptionInfo{"unlabelled_class", "",
+                     "class of points without a label, or with one that is no class of a point, "
+                     "or drop; unlabelled is added to a label set that lacks it; without this "
+                     "key the class `occupied` or else `unlabelled`, if the label set has it, "
+                     "else drop"},
+          o.unlabelled_class);
+      visitor(OptionInfo{"scan_2d_class", "",
+                         "class of all rays of 2-D laser scans, or drop; without this key as "
+                         "unlabelled_class"},
+              o.scan_2d_class);
+    }
+
     void loadFromConfigFile(const mrpt::config::CConfigFileBase& source,
                             const std::string& section) override;
     void dumpToTextStream(std::ostream& out) const override;
@@ -107,7 +128,7 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   LabelOptions labelOptions;
   /// Tell on stderr of the first damaged observation of each class: MRPT's applications have no
   /// other way to learn of it than statistics(), which they do not know.
-  bool announce_damaged = true;
+  bool warn_of_damaged = true;
 
   CSemanticContinuousMap();
   /// What `options` say of classes is taken from the label set. Throws OptionError.
@@ -251,20 +272,5 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
   NearestVoxelField nearest_voxels_;     ///< of the likelihood
   ObservedPointsCache observed_points_;  ///< of the likelihood
 };
-
-/// Calls `visitor(key, field, unit, help)` for every field, in order.
-template <class InsertionOptionsLike, class Visitor>
-void visitInsertionOptions(InsertionOptionsLike&& o, Visitor&& visitor) {
-  visitor("point_labels", o.point_labels, "",
-          "where the labels of points are: nowhere (none); the intensity of a point is a raw id of "
-          "the label set (intensity); its colour is exactly that of a class (color). Labels of "
-          "pixels are used whenever an observation has them");
-  visitor("unlabelled_class", o.unlabelled_class, "",
-          "class of points without a label, or with one that is no class of a point, or drop; "
-          "unlabelled is added to a label set that lacks it; without this key the class `occupied` "
-          "or else `unlabelled`, if the label set has it, else drop");
-  visitor("scan_2d_class", o.scan_2d_class, "",
-          "class of all rays of 2-D laser scans, or drop; without this key as unlabelled_class");
-}
 
 }  // namespace csom

@@ -22,6 +22,6 @@ struct CameraImage {
 /// image of a CObservation3DRangeScan. Nothing for any other kind, and for a range scan without an
 /// intensity image. Loads it if it is a file of its own. Throws std::exception if the file is
 /// missing or damaged, if the camera is not calibrated, or for another size than the image has.
-std::optional<CameraImage> cameraImageOf(const mrpt::obs::CObservation& observation);
+std::optional<CameraImage> toCameraImage(const mrpt::obs::CObservation& observation);
 
 }  // namespace csom

@@ -2,6 +2,7 @@
 // How the labels that observations carry become classes of a map.
 #pragma once
 
+#include <csom/core/EnumWords.h>
 #include <csom/io/LabelSet.h>
 
 #include <cstddef>
@@ -16,9 +17,11 @@ namespace csom {
 /// (CObservation3DRangeScan::pixelLabels) are used whenever they are there.
 enum class PointLabels { None, ByIntensity, ByColor };
 
-std::string toString(PointLabels value);
-/// Throws OptionError with the accepted words.
-void parse(const std::string& key, const std::string& text, PointLabels& value);
+template <>
+inline constexpr EnumWords<PointLabels, 3> kWords<PointLabels>{
+    {{PointLabels::None, "none"},
+     {PointLabels::ByIntensity, "intensity"},
+     {PointLabels::ByColor, "color"}}};
 
 /// A label as found: the class of a point, or why it has none. A point is where a beam was thrown
 /// back, so the class is never kFreeClass: a label that means free says nothing about it.
@@ -32,22 +35,6 @@ struct PointLabel {
   };
   Kind kind = Kind::Missing;
   ClassId id = kFreeClass;
-};
-
-/// Points by what became of their labels. Something is there, whatever it may be: a point without
-/// a class of its own receives the class for unlabelled points if there is one, unless the label
-/// set says that it is not to be used. All others are dropped.
-struct LabelCounts {
-  std::size_t labelled = 0;      ///< had a class of their own
-  std::size_t unlabelled = 0;    ///< had no label and received the class for unlabelled points
-  std::size_t kept_unknown = 0;  ///< had a label of no use and received the same class
-  std::size_t missing = 0;       ///< had no label and were dropped
-  std::size_t unknown = 0;       ///< had a label that is no class of a point and were dropped
-  std::size_t ignored = 0;       ///< the label set says so
-  std::size_t ambiguous = 0;     ///< had several labels and were dropped
-
-  std::size_t dropped() const { return missing + unknown + ignored + ambiguous; }
-  LabelCounts& operator+=(const LabelCounts& other);
 };
 
 /// The rules of one map. Copies of `labels` are not made: the label set must outlive the rules.

@@ -2,7 +2,8 @@
 // How the likelihood of an observation is computed.
 #pragma once
 
-#include <string>
+#include <csom/core/EnumWords.h>
+#include <csom/core/OptionInfo.h>
 
 namespace csom {
 
@@ -10,9 +11,9 @@ namespace csom {
 /// occupied voxels on the way from the sensor to it, and a bit farther.
 enum class LikelihoodMethod { Field, Beam };
 
-std::string toString(LikelihoodMethod value);
-/// Throws OptionError with the accepted words.
-void parse(const std::string& key, const std::string& text, LikelihoodMethod& value);
+template <>
+inline constexpr EnumWords<LikelihoodMethod, 2> kWords<LikelihoodMethod>{
+    {{LikelihoodMethod::Field, "field"}, {LikelihoodMethod::Beam, "beam"}}};
 
 /// log p = −½ · mean over the points of min(d, max_distance)²/sigma²
 ///         + semantic_weight · mean over the labelled points of ln p(label).
@@ -32,23 +33,32 @@ struct LikelihoodOptions {
 
   /// Throws OptionError that names the key, the value and what is accepted.
   void validate() const;
-};
 
-/// Calls `visitor(key, field, unit, help)` for every field, in order.
-template <class LikelihoodOptionsLike, class Visitor>
-void visitLikelihoodOptions(LikelihoodOptionsLike& o, Visitor&& visitor) {
-  visitor("method", o.method, "",
-          "a point is compared with the nearest occupied voxel (field), or with the first one on "
-          "its beam (beam)");
-  visitor("decimation", o.decimation, "", "uses one point out of so many");
-  visitor("max_distance", o.max_distance, "m", "distances beyond count as this one");
-  visitor("sigma", o.sigma, "m", "standard deviation of the distance");
-  visitor(
-      "semantic_weight", o.semantic_weight, "",
-      "how much the labels of the points count, 0 = not at all. Points that carry no label, and "
-      "those that cameras label, do not take part");
-  visitor("label_error", o.label_error, "",
-          "share of labels that are wrong, above 0 to 1: smaller punishes a wrong label more");
-}
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& visitor) {
+    visitor(
+        OptionInfo{
+            "method", "",
+            "a point is compared with the nearest occupied voxel (field), or with the first one on "
+            "its beam (beam)"},
+        o.method);
+    visitor(OptionInfo{"decimation", "", "uses one point out of so many", {1, 1e9}}, o.decimation);
+    visitor(OptionInfo{"max_distance", "m", "distances beyond count as this one", {1e-9, 1e9}},
+            o.max_distance);
+    visitor(OptionInfo{"sigma", "m", "standard deviation of the distance", {1e-9, 1e9}}, o.sigma);
+    visitor(OptionInfo{"semantic_weight",
+                       "",
+                       "how much the labels of the points count, 0 = not at all. Points that carry "
+                       "no label, and "
+                       "those that cameras label, do not take part",
+                       {0, 1e9}},
+            o.semantic_weight);
+    visitor(OptionInfo{"label_error",
+                       "",
+                       "share of labels that are wrong: smaller punishes a wrong label more",
+                       {1e-9, 1}},
+            o.label_error);
+  }
+};
 
 }  // namespace csom

@@ -3,8 +3,12 @@
 #pragma once
 
 #include <csom/core/types.h>
+#include <csom/io/RunStatistics.h>
+#include <csom/maps/LabelOptions.h>
 #include <csom/maps/LabelRules.h>
+#include <csom/maps/LabelledScan.h>
 #include <csom/maps/PointExtractor.h>
+#include <csom/vision/CameraStatistics.h>
 #include <mrpt/obs/CObservation.h>
 
 #include <Eigen/Geometry>
@@ -17,7 +21,6 @@ namespace csom {
 
 class ByteReader;
 class ByteWriter;
-struct CameraStatistics;
 
 /// A scan that is ready to be inserted, and the observation that its points come from.
 struct AdaptedScan {
@@ -50,6 +53,16 @@ class ObservationAdapter {
   virtual std::vector<AdaptedScan> takeFinished() { return {}; }
   /// Null if it uses no cameras. Valid until the next call.
   virtual const CameraStatistics* cameraStatistics() const { return nullptr; }
+
+  // For adapters that use networks; the others have nothing to do.
+  /// Loads them now rather than at the first image. Throws FileError.
+  virtual void loadNetworks() {}
+  /// Uses those of another adapter of the same kind, which has the same label sources. Throws
+  /// std::invalid_argument if they are not the same.
+  virtual void takeNetworksOf(const ObservationAdapter& /*other*/) {}
+  /// Called with every scan that had an image. Clones have no observer.
+  virtual void setObserver(LabelledScanObserver /*observer*/) {}
+
   /// What it keeps, as bytes and back: MRPT copies maps by streams. readFrom() is for an adapter of
   /// the same configuration and throws std::runtime_error if the bytes are not those of writeTo()
   /// in that version of the map's stream.
@@ -69,6 +82,11 @@ class SelfLabelledAdapter : public ObservationAdapter {
   void writeTo(ByteWriter& out) const override;
   void readFrom(ByteReader& in, std::uint8_t version) override;
 };
+
+/// The adapter for these options. Throws ConfigError or FileError if a network is described wrongly
+/// or missing.
+std::unique_ptr<ObservationAdapter> makeAdapter(const LabelOptions& options,
+                                                const LabelSet& labels);
 
 /// Seconds since 1970; 0 if the observation has no time stamp.
 double secondsSince1970(const mrpt::obs::CObservation& observation);

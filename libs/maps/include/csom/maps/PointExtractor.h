@@ -45,6 +45,8 @@ class PointExtractor {
   virtual ~PointExtractor() = default;
   /// True for observations of the kind that it reads.
   virtual bool accepts(const mrpt::obs::CObservation& observation) const = 0;
+  /// Whether they are 3-D scans of the surroundings, which can be laid over one another.
+  virtual bool seesAllAround() const = 0;
   /// Requires accepts(observation). False if it is plain, without reading files, that extract()
   /// would find no point or throw.
   virtual bool holdsPoints(const mrpt::obs::CObservation& observation) const = 0;

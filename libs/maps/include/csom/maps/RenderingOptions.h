@@ -2,7 +2,8 @@
 // What 3-D views show of a map.
 #pragma once
 
-#include <string>
+#include <csom/core/EnumWords.h>
+#include <csom/core/OptionInfo.h>
 
 namespace csom {
 
@@ -11,9 +12,11 @@ namespace csom {
 /// to red, the highest.
 enum class VoxelColor { Class, Probability, Height };
 
-std::string toString(VoxelColor value);
-/// Throws OptionError with the accepted words.
-void parse(const std::string& key, const std::string& text, VoxelColor& value);
+template <>
+inline constexpr EnumWords<VoxelColor, 3> kWords<VoxelColor>{
+    {{VoxelColor::Class, "class"},
+     {VoxelColor::Probability, "probability"},
+     {VoxelColor::Height, "height"}}};
 
 struct RenderingOptions {
   VoxelColor color_by = VoxelColor::Class;
@@ -22,22 +25,28 @@ struct RenderingOptions {
   bool free_voxels = false;
   bool unknown_voxels = false;  ///< those that touch free ones with a side: where knowledge ends
   bool save_scene = false;      ///< saving a map also writes what views show
-};
 
-/// Calls `visitor(key, field, unit, help)` for every field, in order.
-template <class RenderingOptionsLike, class Visitor>
-void visitRenderingOptions(RenderingOptionsLike&& o, Visitor&& visitor) {
-  visitor("color_by", o.color_by, "",
-          "what the colour of occupied voxels says: their `class`, its `probability` from blue (0) "
-          "to red (1), or `height` from blue (lowest) to red (highest)");
-  visitor("visible_only", o.visible_only, "",
-          "leaves out voxels that others of their kind hide on all six sides");
-  visitor("occupied_voxels", o.occupied_voxels, "", "shows occupied voxels");
-  visitor("free_voxels", o.free_voxels, "", "shows free voxels, faintly");
-  visitor("unknown_voxels", o.unknown_voxels, "",
-          "shows, faintly, unknown voxels that touch free ones: where knowledge ends");
-  visitor("save_scene", o.save_scene, "",
-          "where a program saves the map, a .3Dscene for SceneViewer3D is written beside it");
-}
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& visitor) {
+    visitor(OptionInfo{"color_by", "",
+                       "what the colour of occupied voxels says: their `class`, its `probability` "
+                       "from blue (0) "
+                       "to red (1), or `height` from blue (lowest) to red (highest)"},
+            o.color_by);
+    visitor(OptionInfo{"visible_only", "",
+                       "leaves out voxels that others of their kind hide on all six sides"},
+            o.visible_only);
+    visitor(OptionInfo{"occupied_voxels", "", "shows occupied voxels"}, o.occupied_voxels);
+    visitor(OptionInfo{"free_voxels", "", "shows free voxels, faintly"}, o.free_voxels);
+    visitor(OptionInfo{"unknown_voxels", "",
+                       "shows, faintly, unknown voxels that touch free ones: where knowledge ends"},
+            o.unknown_voxels);
+    visitor(
+        OptionInfo{
+            "save_scene", "",
+            "where a program saves the map, a .3Dscene for SceneViewer3D is written beside it"},
+        o.save_scene);
+  }
+};
 
 }  // namespace csom

@@ -33,7 +33,7 @@ Scan scanOf(const LabelledCloud& cloud, const Eigen::Vector3d& origin);
 /// The majority class (ties: the lower id) of the labelled points in each voxel. Voxels that hold
 /// points but no labelled one are left out. Throws std::invalid_argument if there is no labelled
 /// point.
-VoxelTruth truthOf(const LabelledCloud& cloud, double resolution, int number_of_classes);
+VoxelTruth computeTruth(const LabelledCloud& cloud, double resolution, int number_of_classes);
 
 /// What a map says of the labelled points.
 PointScore scorePoints(const Mapper& map, const LabelledCloud& cloud, int number_of_classes);

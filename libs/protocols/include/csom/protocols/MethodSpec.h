@@ -5,9 +5,9 @@
 #include <csom/core/Options.h>
 #include <csom/eval/Mapper.h>
 
+#include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace csom {
@@ -17,7 +17,7 @@ namespace csom {
 struct MethodSpec {
   std::string text;  ///< as given
   std::string name;
-  std::vector<std::pair<std::string, std::string>> settings;
+  std::map<std::string, std::string> settings;
 
   /// Throws ConfigError for a name that is no method, or for an option that is none of the
   /// engine's; baselines take no settings.

@@ -10,6 +10,7 @@
 #include <csom/protocols/MethodSpec.h>
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,9 +56,10 @@ struct VoxelFigures {
 struct TrialResult {
   std::string protocol;
   std::string variant;
-  std::string method;
-  bool classes = true;    ///< false: the method knows occupancy alone
-  std::size_t scans = 0;  ///< inserted so far
+  std::string method;                           ///< MethodSpec::text
+  std::map<std::string, std::string> settings;  ///< of the method
+  bool classes = true;                          ///< false: the method knows occupancy alone
+  std::size_t scans = 0;                        ///< inserted so far
   VoxelFigures voxels;
   std::optional<VoxelFigures> seen;  ///< over the trial's seen_truth
   std::optional<PointScore> points;  ///< of a method with classes, where points are scored

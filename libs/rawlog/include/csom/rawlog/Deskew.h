@@ -2,10 +2,10 @@
 // A LiDAR that is carried along while it turns sees each direction from another place.
 #pragma once
 
+#include <csom/io/RunStatistics.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/poses/CPose3D.h>
 
-#include <cstddef>
 #include <functional>
 #include <optional>
 
@@ -13,15 +13,6 @@ namespace csom {
 
 /// Where the robot is at a time [s since 1970], in a frame that does not move; nothing if unknown.
 using RobotMotion = std::function<std::optional<mrpt::poses::CPose3D>(double time)>;
-
-/// What became of the scans that consist of packets with times.
-struct DeskewStatistics {
-  std::size_t deskewed = 0;
-  std::size_t not_needed = 0;    ///< all packets carry the same time
-  std::size_t not_possible = 0;  ///< the poses do not span the turn
-
-  DeskewStatistics& operator+=(const DeskewStatistics& other);
-};
 
 /// The same scan as if it had been taken at once at its time stamp: its points, moved, are in
 /// point_cloud, and it has no packets. Null if that is not needed or not possible; `statistics`

@@ -29,6 +29,7 @@ struct ImportSummary {
   std::size_t points = 0;
   std::size_t images = 0;
   std::string labels;                 ///< where those of the points come from, in plain words
+  std::vector<std::string> options;   ///< that could change that, see Error::options()
   std::vector<std::string> warnings;  ///< one line each
 };
 

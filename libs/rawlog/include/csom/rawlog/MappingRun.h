@@ -93,6 +93,6 @@ MappingResult mapLogs(const MappingRequest& request,
 
 /// The request that the run had which left this state, but for the label cache: where files are
 /// written is not for a file to say. Throws FileError, about `file`, if it is no such state.
-MappingRequest requestOf(const MapStore::State& state, const std::string& file);
+MappingRequest readRequest(const MapStore::State& state, const std::string& file);
 
 }  // namespace csom

@@ -2,6 +2,7 @@
 // Where a robot drives, found by laying each of its 3-D scans over those before it.
 #pragma once
 
+#include <csom/io/RunStatistics.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/poses/CPose3D.h>
 
@@ -13,11 +14,8 @@
 
 namespace csom {
 
-/// How the scans of a log were registered.
 struct RegistrationReport {
-  std::size_t scans = 0;     ///< registered, doubtful ones included
-  std::size_t doubtful = 0;  ///< have the pose that was expected, as what fitted cannot be trusted
-  double seconds = 0;        ///< of computing
+  RegistrationStatistics statistics;
   std::vector<std::string> doubts;  ///< the first of them: scan, time and reason, a line each
 };
 

@@ -37,7 +37,7 @@ struct MapFigures {
 };
 
 /// Visits every voxel of the map once.
-MapFigures figuresOf(const MapDocument& document);
+MapFigures computeFigures(const MapDocument& document);
 
 /// The same for a map that comes in parts, none of which shares a voxel with another.
 class MapFiguresSum {

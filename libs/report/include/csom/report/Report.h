@@ -23,8 +23,8 @@ struct ReportOptions {
 /// Names of all files that writeReport() may write with these options.
 std::vector<std::string> reportFiles(const ReportOptions& options = {});
 
-/// `figures` are those of the document, see figuresOf(). Writes the files into `folder`, which is
-/// created if missing. Of several cameras, the first one's pictures become files. Each file is
+/// `figures` are those of the document, see computeFigures(). Writes the files into `folder`, which
+/// is created if missing. Of several cameras, the first one's pictures become files. Each file is
 /// complete or absent: it is written beside its place and then renamed. Throws FileError.
 void writeReport(const RunRecord& record, const MapDocument& document, const MapFigures& figures,
                  const std::string& folder, const ReportOptions& options = {});

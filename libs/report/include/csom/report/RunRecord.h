@@ -6,8 +6,10 @@
 #include <csom/core/Options.h>
 #include <csom/core/ScanReport.h>
 #include <csom/io/MapFile.h>
-#include <csom/report/CameraRecord.h>
+#include <csom/io/RunStatistics.h>
+#include <csom/report/CameraPicture.h>
 #include <csom/report/MapFigures.h>
+#include <csom/vision/CameraStatistics.h>
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -27,8 +29,24 @@ struct Parameter {
   std::string help;  ///< what it means, in a few words; may be empty
 };
 
-/// All fields of `options` under their ini names (see visitOptions).
-std::vector<Parameter> parametersOf(const Options& options);
+/// All fields of a struct of options under their ini names (see OptionInfo).
+template <class OptionsLike>
+std::vector<Parameter> toParameters(const OptionsLike& options) {
+  std::vector<Parameter> parameters;
+  visitOptions(options, [&](const OptionInfo& option, const auto& field) {
+    using Field = std::decay_t<decltype(field)>;
+    Parameter parameter{option.key, std::string(), option.unit, fullHelp(option, field)};
+    if constexpr (std::is_same_v<Field, bool> || std::is_same_v<Field, double> ||
+                  std::is_same_v<Field, std::string>)
+      parameter.value = field;
+    else if constexpr (std::is_integral_v<Field>)
+      parameter.value = static_cast<std::int64_t>(field);
+    else
+      parameter.value = toString(field);
+    parameters.push_back(std::move(parameter));
+  });
+  return parameters;
+}
 /// "0.2", "on", "see-csom": as it would stand in an ini file.
 std::string toText(const Parameter& parameter);
 
@@ -45,17 +63,6 @@ struct RefusedObservations {
   std::size_t count = 0;
 };
 
-/// Points that were dropped for their label, before the map saw them; those that cameras label are
-/// in CameraPointCounts and not here.
-struct LabelRejects {
-  std::size_t missing = 0;    ///< had none
-  std::size_t unknown = 0;    ///< not in the label set
-  std::size_t ignored = 0;    ///< the label set says so
-  std::size_t ambiguous = 0;  ///< several labels at once
-
-  std::size_t total() const { return missing + unknown + ignored + ambiguous; }
-};
-
 /// Filled by the one who runs; no invariants, nothing is computed behind one's back.
 struct RunRecord {
   std::string program_version;
@@ -70,16 +77,13 @@ struct RunRecord {
   std::size_t observations_read = 0;  ///< inserted and refused ones
   std::vector<RunScan> scans;
   ScanReport unused;           ///< sum over the observations of which no point could be used
-  LabelRejects label_rejects;  ///< over all observations
-  /// Points whose own label was missing or of no use, in the map as the class of unlabelled points;
-  /// those that cameras label are in CameraPointCounts and not here.
-  std::size_t kept_unlabelled = 0;
+  LabelCounts labels;          ///< over all observations
   std::size_t no_returns = 0;  ///< beams that hit nothing; no points, and not among the rejected
   std::vector<RefusedObservations> refused;
-  std::optional<CameraLabels> camera_labels;       ///< nothing if no camera is configured
-  std::optional<DeskewCounts> deskew;              ///< nothing if it is switched off
-  std::optional<RegistrationRecord> registration;  ///< nothing if the poses were given
-  std::vector<CameraPicture> pictures;             ///< in the order of the page
+  std::optional<CameraStatistics> camera_labels;       ///< nothing if no camera is configured
+  std::optional<DeskewStatistics> deskew;              ///< nothing if it is switched off
+  std::optional<RegistrationStatistics> registration;  ///< nothing if the poses were given
+  std::vector<CameraPicture> pictures;                 ///< in the order of the page
   std::vector<std::string> warnings;
   double wall_seconds = 0;
 };

@@ -2,6 +2,8 @@
 // Points of a scan take the labels of the pixels that show them.
 #pragma once
 
+#include <csom/core/EnumWords.h>
+#include <csom/core/OptionInfo.h>
 #include <csom/core/types.h>
 #include <csom/vision/CameraProjection.h>
 #include <csom/vision/SemanticImage.h>
@@ -25,8 +27,8 @@ struct PointLabellingOptions {
   enum class LowConfidence { Drop, Soft };
 
   LabelMode label_mode = LabelMode::Hard;
-  double temperature = 1;     ///< of the softmax; > 0
-  double min_confidence = 0;  ///< of the best class, in [0, 1]
+  double temperature = 1;     ///< of the softmax
+  double min_confidence = 0;  ///< of the best class
   LowConfidence low_confidence = LowConfidence::Drop;
   SeveralCameras several_cameras = SeveralCameras::NearestToCentre;
 
@@ -40,7 +42,58 @@ struct PointLabellingOptions {
 
   /// Throws OptionError that names the key.
   void validate() const;
+
+  template <class Self, class Visitor>
+  static void visit(Self& o, Visitor&& visitor) {
+    visitor(OptionInfo{"label_mode", "",
+                       "a point takes the best class (hard), or the distribution over the classes "
+                       "(soft)"},
+            o.label_mode);
+    visitor(OptionInfo{"temperature",
+                       "",
+                       "of the softmax; above 1 is less sure of the best class",
+                       {1e-6, 1e6}},
+            o.temperature);
+    visitor(OptionInfo{"min_confidence",
+                       "",
+                       "points whose best class is less sure are treated as low_confidence says",
+                       {0, 1}},
+            o.min_confidence);
+    visitor(OptionInfo{"low_confidence", "",
+                       "such points are left out (drop) or keep their distribution (soft)"},
+            o.low_confidence);
+    visitor(OptionInfo{"visibility", "",
+                       "points that something nearer hides from the camera are rejected"},
+            o.visibility);
+    visitor(OptionInfo{"visibility_margin", "m", "what is nearer by less does not hide", {0, 1e7}},
+            o.visibility_margin);
+    visitor(OptionInfo{"edge_margin",
+                       "pixels",
+                       "points so near to a label border are rejected if the depth jumps there; 0 "
+                       "keeps them",
+                       {0, 100}},
+            o.edge_margin);
+    visitor(OptionInfo{"several_cameras", "",
+                       "of several cameras that see a point the one counts in whose image it is "
+                       "nearest to the centre (nearest-to-centre), or all (vote)"},
+            o.several_cameras);
+  }
 };
+
+template <>
+inline constexpr EnumWords<PointLabellingOptions::LabelMode, 2>
+    kWords<PointLabellingOptions::LabelMode>{{{PointLabellingOptions::LabelMode::Hard, "hard"},
+                                              {PointLabellingOptions::LabelMode::Soft, "soft"}}};
+template <>
+inline constexpr EnumWords<PointLabellingOptions::SeveralCameras, 2>
+    kWords<PointLabellingOptions::SeveralCameras>{
+        {{PointLabellingOptions::SeveralCameras::NearestToCentre, "nearest-to-centre"},
+         {PointLabellingOptions::SeveralCameras::Vote, "vote"}}};
+template <>
+inline constexpr EnumWords<PointLabellingOptions::LowConfidence, 2>
+    kWords<PointLabellingOptions::LowConfidence>{
+        {{PointLabellingOptions::LowConfidence::Drop, "drop"},
+         {PointLabellingOptions::LowConfidence::Soft, "soft"}}};
 
 /// What became of a point.
 enum class PointFate : std::uint8_t {

@@ -95,7 +95,7 @@ class ScoreImage : public SemanticImage {
 
   /// From logits: CV_32F, channels × rows × columns (three dimensions). Log-probabilities are
   /// logits too, −∞ among them. A cell with a NaN or +∞, or nothing but −∞, says nothing.
-  static cv::Mat distancesOf(const cv::Mat& logits);
+  static cv::Mat computeDistances(const cv::Mat& logits);
 
   const cv::Mat& distances() const { return distances_; }
   cv::Size size() const override { return image_size_; }
