@@ -44,7 +44,7 @@ class CameraRealData : public testing::Test {
   const std::string config_ = folder / "kitti.ini";
 };
 
-TEST_F(CameraRealData, becomesAMapWithPosesFromItsScansAndMrptMakesTheSame) {
+TEST_F(CameraRealData, BecomesAMapWithPosesFromItsScansAndMrptMakesTheSame) {
   const auto run =
       runCsom(folder.path(), {"map", log_, "-c", config_, "--poses", "icp", "-o", folder / "out",
                               "--write-simplemap", folder / "jam.simplemap"});
@@ -97,7 +97,7 @@ TEST_F(CameraRealData, becomesAMapWithPosesFromItsScansAndMrptMakesTheSame) {
             mapDigest(document.map));
 }
 
-TEST_F(CameraRealData, aSecondRunNeedsNoNetwork) {
+TEST_F(CameraRealData, ASecondRunNeedsNoNetwork) {
   std::vector<std::string> digests;
   for (const std::size_t network_runs : {kScans, std::size_t{0}}) {
     const auto run = runCsom(folder.path(), {"map", log_, "-c", config_, "--poses", "icp", "-o",

@@ -188,10 +188,9 @@ class Doorways : public testing::Test {
     return ServedMap(folder_ / "nav.yaml");
   }
   ServedMap mappedBy(const std::string& method) const {
-    const std::string key = "\nmethod = ";
+    const std::string section = "_00_insertOpts]\n";
     std::string config = readBytes(std::string(CSOM_SOURCE_DIR) + "/config/room.ini");
-    const std::size_t value = config.find(key) + key.size();
-    config.replace(value, config.find('\n', value) - value, method);
+    config.insert(config.find(section) + section.size(), "method = " + method + "\n");
     writeBytes(folder_ / "room.ini", config);
     run({"map", folder_ / "drive.rawlog", "-c", folder_ / "room.ini", "-o", folder_ / "out",
          "--no-html"});

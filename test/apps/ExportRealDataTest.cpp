@@ -28,11 +28,10 @@ TEST(ExportRealData, ConferenceRoomReadsBackTheSame) {
                 .exit_code,
             0);
   const auto mapWith = [&](const std::string& method) {
-    const std::string key = "\nmethod = ";
+    const std::string section = "_00_insertOpts]\n";
     std::string config = readBytes(std::string(CSOM_SOURCE_DIR) + "/config/stanford.ini");
-    const std::size_t value = config.find(key) + key.size();
-    ASSERT_GT(value, key.size());
-    config.replace(value, config.find('\n', value) - value, method);
+    ASSERT_NE(config.find(section), std::string::npos);
+    config.insert(config.find(section) + section.size(), "method = " + method + "\n");
     writeBytes(folder / "room.ini", config);
     ASSERT_EQ(run({"map", folder / "room.rawlog", "-c", folder / "room.ini", "-o", folder / "out",
                    "--no-html"})

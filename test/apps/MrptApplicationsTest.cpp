@@ -11,8 +11,8 @@
 namespace csom::test {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::Not;
+using testing::HasSubstr;
+using testing::Not;
 
 const std::string kConfigs = CSOM_SOURCE_DIR "/config/mrpt/";
 const std::string kDataSets = "/usr/share/mrpt/datasets/";  // of the package mrpt-common
@@ -28,7 +28,7 @@ std::size_t framesOf(const std::string& file) {
 }
 
 /// Every frame is in one part, and the parts are neither one nor one for each frame.
-TEST(MapPartition, dividesADataSetByTheOverlapOfSemanticMaps) {
+TEST(MapPartition, DividesADataSetByTheOverlapOfSemanticMaps) {
   const TempFolder folder;
   const std::string ini = "MAP-PARTITION_CONFIG.ini";
   writeBytes(folder / ini, readBytes(kConfigs + ini));
@@ -53,7 +53,7 @@ TEST(MapPartition, dividesADataSetByTheOverlapOfSemanticMaps) {
 }
 
 /// It aligns occupancy grids: ours may be beside them.
-TEST(GridMatching, runsWithASemanticMapBesideItsGrid) {
+TEST(GridMatching, RunsWithASemanticMapBesideItsGrid) {
   const TempFolder folder;
   std::string ini = readBytes("/usr/share/mrpt/config_files/grid-matching/gridmatch_example.ini");
   const std::size_t at = ini.find("pointsMap_count=1");
@@ -72,7 +72,7 @@ TEST(GridMatching, runsWithASemanticMapBesideItsGrid) {
   EXPECT_THAT(run.output + run.errors, Not(HasSubstr("exception")));
 }
 
-TEST(RbpfSlam, drawsParticlesByAligningScansToTheSemanticMap) {
+TEST(RbpfSlam, DrawsParticlesByAligningScansToTheSemanticMap) {
   const TempFolder folder;
   const ProgramResult run =
       runStock(folder, {"rbpf-slam", kConfigs + "rbpf-slam-optimal.ini",

@@ -42,7 +42,7 @@ std::string withStockMap(const std::string& ini) {
          "minDistBetweenLaserPoints = 0.05\nfuseWithExisting = false\nisPlanarMap = 1\n";
 }
 
-TEST(IcpSlam, endsWhereItEndsWithAStockPointsMap) {
+TEST(IcpSlam, EndsWhereItEndsWithAStockPointsMap) {
   const TempFolder folder;
   const Pose ours = finalPose(folder, kConfig);
   const MapDocument document =
@@ -66,7 +66,7 @@ TEST(IcpSlam, endsWhereItEndsWithAStockPointsMap) {
 }
 
 // docs/mrpt.md tells users so.
-TEST(IcpSlam, refusesTheMapThatIsNoPointsMap) {
+TEST(IcpSlam, RefusesTheMapThatIsNoPointsMap) {
   const TempFolder folder;
   std::string ini = readBytes(kConfig);
   for (std::size_t at = 0; (at = ini.find("semanticPointsMap", at)) != std::string::npos;)
@@ -74,7 +74,7 @@ TEST(IcpSlam, refusesTheMapThatIsNoPointsMap) {
   writeBytes(folder / "alone.ini", ini);
   const ProgramResult run = runMrpt(folder.path(), {"icp-slam", "alone.ini", kLog});
   EXPECT_NE(run.exit_code, 0);
-  EXPECT_THAT(run.output + run.errors, ::testing::HasSubstr("Neither grid maps nor points map"));
+  EXPECT_THAT(run.output + run.errors, testing::HasSubstr("Neither grid maps nor points map"));
 }
 
 }  // namespace

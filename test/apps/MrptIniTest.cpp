@@ -9,7 +9,7 @@
 namespace csom::test {
 namespace {
 
-TEST(PrintConfig, printsEveryKeyAndNothingElse) {
+TEST(PrintConfig, PrintsEveryKeyAndNothingElse) {
   const TempFolder folder;
   const ProgramResult run = runCsom(folder.path(), {"map", "--print-config"});
   EXPECT_EQ(run.exit_code, 0);
@@ -17,7 +17,7 @@ TEST(PrintConfig, printsEveryKeyAndNothingElse) {
   EXPECT_EQ(run.errors, "");
 }
 
-TEST(PrintConfig, makesTheMapOfAnEmptyIni) {
+TEST(PrintConfig, MakesTheMapOfAnEmptyIni) {
   const TempFolder folder;
   writeBytes(folder / "full.ini", runCsom(folder.path(), {"map", "--print-config"}).output);
   writeBytes(folder / "short.ini", "[MappingApplication]\nsemanticContinuousMap_count = 1\n");

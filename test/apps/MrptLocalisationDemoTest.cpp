@@ -69,7 +69,7 @@ double medianError(const TempFolder& folder, const std::string& name, const std:
   return median;
 }
 
-TEST(LocalisationDemo, endsAsNearAsWithTheStockGrid) {
+TEST(LocalisationDemo, EndsAsNearAsWithTheStockGrid) {
   const std::string ini = readBytes(kConfig);
   const TempFolder stock_folder;
   const double stock = medianError(stock_folder, "occupancyGrid", withStockGrid(ini));

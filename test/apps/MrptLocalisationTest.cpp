@@ -67,7 +67,7 @@ Belief beliefOf(const std::string& file) {
   return {static_cast<int>(room), *most / all, sums[static_cast<std::size_t>(room)] / *most};
 }
 
-class Localisation : public ::testing::Test {
+class Localisation : public testing::Test {
  protected:
   /// The rooms, mapped from two places in each.
   void SetUp() override {
@@ -175,11 +175,11 @@ int chanceLimit(int runs) {
   return successes;
 }
 
-TEST_F(Localisation, labelsTellRoomsOfTheSameShapeApart) {
+TEST_F(Localisation, LabelsTellRoomsOfTheSameShapeApart) {
   EXPECT_GE(successes(5), static_cast<int>(std::ceil(0.95 * numberOfRuns())));
 }
 
-TEST_F(Localisation, withoutLabelsItIsChance) {
+TEST_F(Localisation, WithoutLabelsItIsChance) {
   EXPECT_LE(successes(0), chanceLimit(numberOfRuns()));
 }
 

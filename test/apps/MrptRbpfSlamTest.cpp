@@ -55,7 +55,7 @@ double error(const Path& path, const Path& truth) {
   return std::sqrt(squares / static_cast<double>(path.size()));
 }
 
-TEST(RbpfSlam, theBestParticleDrivesNearerToTheTruthThanOdometry) {
+TEST(RbpfSlam, TheBestParticleDrivesNearerToTheTruthThanOdometry) {
   const TempFolder folder;
   writeBytes(folder / "noisy.yaml", noisyWorld());
   const ProgramResult simulation =

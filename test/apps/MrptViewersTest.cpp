@@ -17,10 +17,10 @@
 namespace csom::test {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::Not;
+using testing::HasSubstr;
+using testing::Not;
 
-class MrptViewers : public ::testing::Test {
+class MrptViewers : public testing::Test {
  protected:
   MrptViewers() : display_(folder_.path()) {}
 
@@ -49,8 +49,8 @@ class MrptViewers : public ::testing::Test {
   VirtualDisplay display_;
 };
 
-TEST_F(MrptViewers, sceneViewerShowsTheSceneThatAMapSaves) {
-  CSemanticContinuousMap map = ::csom::testing::roomMap();  // walls of a green class
+TEST_F(MrptViewers, SceneViewerShowsTheSceneThatAMapSaves) {
+  CSemanticContinuousMap map = csom::test::roomMap();  // walls of a green class
   map.renderingOptions.save_scene = true;
   map.saveMetricMapRepresentationToFile(folder_ / "room");
   auto viewer = start({"SceneViewer3D", folder_ / "room.3Dscene"});
@@ -59,7 +59,7 @@ TEST_F(MrptViewers, sceneViewerShowsTheSceneThatAMapSaves) {
   EXPECT_GT(greenPixels(), 300) << printed();
 }
 
-TEST_F(MrptViewers, sceneViewerLoadsThePlugin) {
+TEST_F(MrptViewers, SceneViewerLoadsThePlugin) {
   auto viewer = start({"SceneViewer3D", "-l", CSOM_PLUGIN}, acceptingPlugin());
   EXPECT_TRUE(eventually([&] { return showsAnything() || !viewer.isRunning(); }));
   EXPECT_TRUE(viewer.isRunning()) << printed();
@@ -70,14 +70,14 @@ TEST_F(MrptViewers, sceneViewerLoadsThePlugin) {
 void writeLogWithMap(const std::string& file) {
   mrpt::io::CFileGZOutputStream stream(file);
   auto archive = mrpt::serialization::archiveFrom(stream);
-  const auto scan = ::csom::testing::laserScan();
+  const auto scan = csom::test::laserScan();
   scan->timestamp = mrpt::Clock::fromDouble(1.5e9);
   CSemanticContinuousMap map;
   map.insertObservation(*scan);
   archive << *scan << map;
 }
 
-TEST_F(MrptViewers, rawLogViewerLoadsThePluginAndReadsALogWithAMap) {
+TEST_F(MrptViewers, RawLogViewerLoadsThePluginAndReadsALogWithAMap) {
   writeLogWithMap(folder_ / "map.rawlog");
   auto viewer =
       start({"RawLogViewer", "-l", CSOM_PLUGIN, folder_ / "map.rawlog"}, acceptingPlugin());

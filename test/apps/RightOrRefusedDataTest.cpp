@@ -732,7 +732,7 @@ TEST_F(RightOrRefused, A9_WhatIsOutsideOfTheViewIsNotCalledRejected) {
   const auto replace = [&](const std::string& from, const std::string& to) {
     config.replace(config.find(from), from.size(), to);
   };
-  replace("outside_view = unlabelled", "outside_view = drop");
+  config += "\n[MappingApplication_semanticContinuousMap_00_labelOpts]\noutside_view = drop\n";
   replace("networks/campus.yaml", CSOM_SOURCE_DIR "/config/networks/campus.yaml");
   writeBytes(folder / "drop.ini", config);
   mapOf({CSOM_SOURCE_DIR "/rawlogs/campus.rawlog", "-c", folder / "drop.ini"});

@@ -16,11 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 using test::ProgramResult;
 using test::runCsom;
-using ::testing::HasSubstr;
+using testing::HasSubstr;
 
 const std::string kRoom = CSOM_SOURCE_DIR "/config/worlds/room.yaml";
 
-class SimulateTest : public ::testing::Test {
+class SimulateTest : public testing::Test {
  protected:
   ProgramResult simulate(const std::string& world, std::vector<std::string> more = {}) {
     std::vector<std::string> arguments{"simulate", world, "-o", rawlog()};

@@ -35,7 +35,7 @@ class With : public testing::Test {
   const TempFolder folder_;
 };
 
-TEST_F(With, icpSlamLeavesAMapThatIsNamed) {
+TEST_F(With, IcpSlamLeavesAMapThatIsNamed) {
   const ProgramResult run =
       with({"icp-slam", kConfigs + "icp-slam.ini",
             kDataSets + "2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog"});
@@ -48,7 +48,7 @@ TEST_F(With, icpSlamLeavesAMapThatIsNamed) {
   EXPECT_GT(document.scans.size(), 20u);
 }
 
-TEST_F(With, aPrefixMayNameWhereMapsGo) {
+TEST_F(With, APrefixMayNameWhereMapsGo) {
   std::filesystem::create_directory(folder_ / "maps");
   const ProgramResult run = with({"observations2map", kConfigs + "observations2map.ini",
                                   kDataSets + "localization_demo.simplemap.gz", "maps/demo"});
@@ -57,7 +57,7 @@ TEST_F(With, aPrefixMayNameWhereMapsGo) {
               HasSubstr("csom: wrote maps/demo_csom__CSemanticContinuousMap_00.csom: "));
 }
 
-TEST_F(With, mapsThatWereThereBeforeAreNotTold) {
+TEST_F(With, MapsThatWereThereBeforeAreNotTold) {
   writeBytes(folder_ / "old.csom", "");
   const ProgramResult run = withShell("true");
   EXPECT_EQ(run.exit_code, 0);
@@ -65,12 +65,12 @@ TEST_F(With, mapsThatWereThereBeforeAreNotTold) {
   EXPECT_THAT(run.errors, Not(HasSubstr("old.csom")));
 }
 
-TEST_F(With, aDamagedMapIsSaidToBe) {
+TEST_F(With, ADamagedMapIsSaidToBe) {
   const ProgramResult run = withShell("echo nonsense >new.csom");
   EXPECT_THAT(run.errors, HasSubstr("csom: warning: wrote a map that is damaged: new.csom: "));
 }
 
-TEST_F(With, preloadsThePluginBesideWhatIsPreloadedAnyway) {
+TEST_F(With, PreloadsThePluginBesideWhatIsPreloadedAnyway) {
   const std::string plugin = std::filesystem::canonical(CSOM_PLUGIN).string();
   const std::string sanitizer = CSOM_ADDRESS_SANITIZER;
   const std::string behind = sanitizer.empty() ? "" : ":" + sanitizer;
@@ -80,14 +80,14 @@ TEST_F(With, preloadsThePluginBesideWhatIsPreloadedAnyway) {
   EXPECT_EQ(both.output, plugin + ":" + others + "\n");
 }
 
-TEST_F(With, exitCodesAndSignalsArePassedThrough) {
+TEST_F(With, ExitCodesAndSignalsArePassedThrough) {
   EXPECT_EQ(withShell("exit 7").exit_code, 7);
   const ProgramResult crashed = withShell("kill -KILL $$");
   EXPECT_EQ(crashed.exit_code, 128 + 9);
   EXPECT_THAT(crashed.errors, HasSubstr("csom: sh was ended by signal 9 (Killed)"));
 }
 
-TEST_F(With, passesSignalsOnToTheProgram) {
+TEST_F(With, PassesSignalsOnToTheProgram) {
   for (const std::string name : {"TERM", "HUP", "INT"}) {
     const ProgramResult run = withShell("trap 'exit 5' " + name + "; kill -" + name +
                                         " $PPID; while :; do sleep 0.02; done");
@@ -95,14 +95,14 @@ TEST_F(With, passesSignalsOnToTheProgram) {
   }
 }
 
-TEST_F(With, aProgramThatCannotBeStarted) {
+TEST_F(With, AProgramThatCannotBeStarted) {
   const ProgramResult run = with({"no-such-slam", "a"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.errors,
               HasSubstr("csom: 'no-such-slam' cannot be started: No such file or directory"));
 }
 
-TEST_F(With, anIniInWhichMrptFindsNoMapIsNotRun) {
+TEST_F(With, AnIniInWhichMrptFindsNoMapIsNotRun) {
   writeBytes(folder_ / "my.ini", "[MappingApplication]\nsemanticContinousMap_count = 1\n");
   const ProgramResult run = with({"observations2map", "my.ini", "x.simplemap", "out"});
   EXPECT_EQ(run.exit_code, 2);
@@ -113,7 +113,7 @@ TEST_F(With, anIniInWhichMrptFindsNoMapIsNotRun) {
             "[MappingApplication]\n");
 }
 
-TEST_F(With, ofSeveralInisOneMustDefineTheMap) {
+TEST_F(With, OfSeveralInisOneMustDefineTheMap) {
   writeBytes(folder_ / "other.ini", "[Camera]\nrate = 5\n");
   writeBytes(folder_ / "maps.ini", "[Mine]\nsemanticContinuousMap_count = 1\n");
   EXPECT_EQ(with({"sh", "-c", "exit 3", "other.ini", "maps.ini"}).exit_code, 3);
@@ -122,13 +122,13 @@ TEST_F(With, ofSeveralInisOneMustDefineTheMap) {
   EXPECT_THAT(without.errors, HasSubstr("other.ini: defines no semantic map"));
 }
 
-TEST_F(With, mapPartitionReadsItsIniFromTheWorkingFolder) {
+TEST_F(With, MapPartitionReadsItsIniFromTheWorkingFolder) {
   const ProgramResult run = with({"map-partition", "x.simplemap"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.errors, HasSubstr("MAP-PARTITION_CONFIG.ini: no such file"));
 }
 
-TEST_F(With, saysThatThereWasNothingToCheck) {
+TEST_F(With, SaysThatThereWasNothingToCheck) {
   EXPECT_THAT(withShell("true").errors, HasSubstr("sh: no .ini among its arguments"));
   const ProgramResult edit = with({"rawlog-edit", "--version"});
   EXPECT_THAT(edit.errors, HasSubstr("rawlog-edit has ended; it saves no maps"));

@@ -12,7 +12,7 @@
 namespace csom {
 namespace {
 
-using ::testing::HasSubstr;
+using testing::HasSubstr;
 
 /// Line by line, so that tests can replace one and know its number.
 std::vector<std::string> validLines() {
@@ -37,8 +37,8 @@ std::vector<std::string> validLines() {
 class ScenarioFile {
  public:
   explicit ScenarioFile(const std::vector<std::string>& lines) {
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              ("csom_scenario_" + std::to_string(::getpid()));
+    folder_ =
+        std::filesystem::path(testing::TempDir()) / ("csom_scenario_" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder_);
     std::ofstream out(path());
     for (const std::string& line : lines) out << line << "\n";
@@ -169,7 +169,7 @@ TEST(Scenario, FileThatIsNoYamlOrNotThere) {
   EXPECT_THAT(errorWith(3, "truth: {resolution: 0.1"), HasSubstr("YAML"));
   EXPECT_THAT(errorWith(1, "label_set: no-such-set"), HasSubstr("no-such-set"));
   EXPECT_THROW(loadScenario("/no/such/world.yaml"), ConfigError);
-  EXPECT_THROW(loadScenario(::testing::TempDir()), ConfigError) << "a folder";
+  EXPECT_THROW(loadScenario(testing::TempDir()), ConfigError) << "a folder";
   EXPECT_THROW(loadScenario(ScenarioFile({}).path()), ConfigError) << "empty";
   EXPECT_THROW(loadScenario(ScenarioFile({"# nothing"}).path()), ConfigError);
   EXPECT_THROW(loadScenario(ScenarioFile({"[1, 2]"}).path()), ConfigError);

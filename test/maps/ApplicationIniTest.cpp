@@ -34,14 +34,14 @@ class ApplicationIni : public testing::Test {
   TempFolder folder_;
 };
 
-TEST_F(ApplicationIni, programsAreKnownByNameAndPath) {
+TEST_F(ApplicationIni, ProgramsAreKnownByNameAndPath) {
   ASSERT_NE(findApplication("icp-slam"), nullptr);
   EXPECT_EQ(findApplication("/usr/bin/icp-slam"), findApplication("icp-slam"));
   EXPECT_EQ(findApplication("icp-slam")->section, "MappingApplication");
   EXPECT_EQ(findApplication("icp"), nullptr);
 }
 
-TEST_F(ApplicationIni, theInisOfTheProjectAreFound) {
+TEST_F(ApplicationIni, TheInisOfTheProjectAreFound) {
   const std::string configs = CSOM_SOURCE_DIR "/config/mrpt/";
   const std::vector<std::pair<std::string, std::string>> pairs{
       {"icp-slam", "icp-slam.ini"},
@@ -56,7 +56,7 @@ TEST_F(ApplicationIni, theInisOfTheProjectAreFound) {
     EXPECT_THAT(checkApplicationIni(configs + ini, findApplication(program)), IsEmpty()) << ini;
 }
 
-TEST_F(ApplicationIni, aMapThatIsNotDefined) {
+TEST_F(ApplicationIni, AMapThatIsNotDefined) {
   expectError("rbpf-slam", "[MappingApplication]\n",
               "map.ini: defines no semantic map; write 'semanticContinuousMap_count = 1' in "
               "[MappingApplication]");
@@ -67,12 +67,12 @@ TEST_F(ApplicationIni, aMapThatIsNotDefined) {
               "[MetricMap] and would pass over it");
 }
 
-TEST_F(ApplicationIni, aMisspeltName) {
+TEST_F(ApplicationIni, AMisspeltName) {
   expectError("observations2map", "[MappingApplication]\nsemanticContinousMap_count = 1\n",
               "[MappingApplication] semanticContinousMap_count: MRPT knows no such map");
 }
 
-TEST_F(ApplicationIni, aMapThatScansCannotBeAlignedTo) {
+TEST_F(ApplicationIni, AMapThatScansCannotBeAlignedTo) {
   const std::string alone = "[MappingApplication]\nsemanticContinuousMap_count = 1\n";
   expectError("icp-slam", alone, "name the map semanticPointsMap");
   expectError("rbpf-slam", alone + "PF_algorithm = 2\n", "name the map semanticPointsMap");
@@ -81,7 +81,7 @@ TEST_F(ApplicationIni, aMapThatScansCannotBeAlignedTo) {
   EXPECT_THAT(check("icp-slam", "[MappingApplication]\nsemanticPointsMap_count = 1\n"), IsEmpty());
 }
 
-TEST_F(ApplicationIni, wrongValues) {
+TEST_F(ApplicationIni, WrongValues) {
   expectError("observations2map",
               "[MappingApplication]\nsemanticContinuousMap_count = 1\n"
               "[MappingApplication_semanticContinuousMap_00_creationOpts]\nresolution = fine\n",
@@ -92,7 +92,7 @@ TEST_F(ApplicationIni, wrongValues) {
               "semanticPointsMap_count = 2000000000 must be 99 at most");
 }
 
-TEST_F(ApplicationIni, whatNothingReads) {
+TEST_F(ApplicationIni, WhatNothingReads) {
   EXPECT_THAT(check("rbpf-slam",
                     "[MappingApplication]\nsemanticContinuousMap_count = 1\n"
                     "[MappingApplication_semanticContinuousMap_00_insertOpts]\nmax_rage = 9\n"
@@ -104,21 +104,21 @@ TEST_F(ApplicationIni, whatNothingReads) {
                           HasSubstr("_semanticContinuousMap_insertOpts]: no map of that name")));
 }
 
-TEST_F(ApplicationIni, ofAnUnknownProgramAnySectionWillDo) {
+TEST_F(ApplicationIni, OfAnUnknownProgramAnySectionWillDo) {
   EXPECT_THAT(check("my-slam", "[Mine]\nsemanticContinuousMap_count = 1\n"), IsEmpty());
   expectError("my-slam", "[Mine]\npointsMap_count = 1\n", "defines no semantic map");
 }
 
-TEST_F(ApplicationIni, caseDoesNotMatter) {
+TEST_F(ApplicationIni, CaseDoesNotMatter) {
   EXPECT_THAT(check("rbpf-slam", "[mappingapplication]\nSEMANTICCONTINUOUSMAP_COUNT = 1\n"),
               IsEmpty());
 }
 
-TEST_F(ApplicationIni, aFileThatIsMissing) {
+TEST_F(ApplicationIni, AFileThatIsMissing) {
   EXPECT_THROW(checkApplicationIni(folder_ / "none.ini", nullptr), ConfigError);
 }
 
-TEST_F(ApplicationIni, tellsWhereResultsGo) {
+TEST_F(ApplicationIni, TellsWhereResultsGo) {
   writeBytes(folder_ / "a.ini", "[A]\nlogOutput_dir = out ; here\n[B]\nlogoutput_dir = there\n");
   EXPECT_THAT(listOutputFolders(folder_ / "a.ini"), testing::UnorderedElementsAre("out", "there"));
 }

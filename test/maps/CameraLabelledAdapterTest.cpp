@@ -22,10 +22,10 @@ namespace {
 
 using mrpt::obs::CObservationImage;
 using mrpt::poses::CPose3D;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using testing::pointCloud;
-using testing::sampleLabels;
+using test::pointCloud;
+using test::sampleLabels;
+using testing::ElementsAre;
+using testing::HasSubstr;
 
 constexpr double kStart = 1500000000;
 constexpr int kWidth = 100;
@@ -84,7 +84,7 @@ LabelOptions cameraOptions() {
   return options;
 }
 
-class CameraLabelledAdapterTest : public ::testing::Test {
+class CameraLabelledAdapterTest : public testing::Test {
  protected:
   /// The scans that are complete now.
   std::vector<AdaptedScan> give(const mrpt::obs::CObservation& observation,
@@ -100,7 +100,7 @@ class CameraLabelledAdapterTest : public ::testing::Test {
   CameraLabelledAdapter adapter_{cameraOptions(), labels_};
 };
 
-TEST_F(CameraLabelledAdapterTest, pointsTakeTheClassOfTheirPixel) {
+TEST_F(CameraLabelledAdapterTest, PointsTakeTheClassOfTheirPixel) {
   EXPECT_TRUE(give(*labelImage(0)).empty());
   const auto scans = give(*scanAt(0));
   ASSERT_EQ(scans.size(), 1U);
@@ -112,14 +112,14 @@ TEST_F(CameraLabelledAdapterTest, pointsTakeTheClassOfTheirPixel) {
   EXPECT_EQ(statistics().cameras[0].images.used, 1U);
 }
 
-TEST_F(CameraLabelledAdapterTest, anImageMayComeAfterItsScan) {
+TEST_F(CameraLabelledAdapterTest, AnImageMayComeAfterItsScan) {
   EXPECT_TRUE(give(*scanAt(0)).empty());
   const auto scans = give(*labelImage(0));
   ASSERT_EQ(scans.size(), 1U);
   EXPECT_THAT(scans[0].scan.labels, ElementsAre(kRoad, kWall));
 }
 
-TEST_F(CameraLabelledAdapterTest, theImageNearestInTimeCounts) {
+TEST_F(CameraLabelledAdapterTest, TheImageNearestInTimeCounts) {
   give(*labelImage(-0.05, kWallId, kWallId));
   EXPECT_TRUE(give(*scanAt(0)).empty()) << "a nearer image may still come";
   const auto scans = give(*labelImage(0.03));
@@ -133,7 +133,7 @@ TEST_F(CameraLabelledAdapterTest, theImageNearestInTimeCounts) {
   EXPECT_THAT(nearer_before[0].scan.labels, ElementsAre(kRoad, kRoad));
 }
 
-TEST_F(CameraLabelledAdapterTest, scansBetweenImagesKeepTheirOrder) {
+TEST_F(CameraLabelledAdapterTest, ScansBetweenImagesKeepTheirOrder) {
   std::vector<AdaptedScan> all;
   const auto take = [&](std::vector<AdaptedScan> scans) {
     for (AdaptedScan& scan : scans) all.push_back(std::move(scan));
@@ -151,7 +151,7 @@ TEST_F(CameraLabelledAdapterTest, scansBetweenImagesKeepTheirOrder) {
   }
 }
 
-TEST_F(CameraLabelledAdapterTest, aScanWhoseImageIsMissingGivesUpWhenTimeHasPassed) {
+TEST_F(CameraLabelledAdapterTest, AScanWhoseImageIsMissingGivesUpWhenTimeHasPassed) {
   EXPECT_TRUE(give(*scanAt(0)).empty());
   EXPECT_TRUE(give(*scanAt(0.1)).empty()) << "an image of 0.1 s would still do";
   const auto scans = give(*scanAt(0.15));
@@ -162,7 +162,7 @@ TEST_F(CameraLabelledAdapterTest, aScanWhoseImageIsMissingGivesUpWhenTimeHasPass
   EXPECT_EQ(statistics().pointsDropped(), 2U);
 }
 
-TEST_F(CameraLabelledAdapterTest, flushFinishesWhatWaits) {
+TEST_F(CameraLabelledAdapterTest, FlushFinishesWhatWaits) {
   give(*labelImage(-0.05));
   give(*scanAt(0));
   const auto scans = adapter_.flush();
@@ -171,7 +171,7 @@ TEST_F(CameraLabelledAdapterTest, flushFinishesWhatWaits) {
   EXPECT_TRUE(adapter_.flush().empty());
 }
 
-TEST_F(CameraLabelledAdapterTest, theRobotMovesBetweenImageAndScan) {
+TEST_F(CameraLabelledAdapterTest, TheRobotMovesBetweenImageAndScan) {
   give(*labelImage(0));
   // 1.5 m to the left, 0.05 s later: both points are on the left of where the camera was.
   EXPECT_TRUE(give(*scanAt(0.05), CPose3D(0, 1.5, 0, 0, 0, 0)).empty());
@@ -181,7 +181,7 @@ TEST_F(CameraLabelledAdapterTest, theRobotMovesBetweenImageAndScan) {
   EXPECT_DOUBLE_EQ(scans[0].scan.origin.y(), 1.5);
 }
 
-TEST_F(CameraLabelledAdapterTest, pointsThatNoCameraSeesAreDroppedOrUnlabelled) {
+TEST_F(CameraLabelledAdapterTest, PointsThatNoCameraSeesAreDroppedOrUnlabelled) {
   const auto behind = scanAt(0, {{5, 1, 0}, {-5, 0, 0}});
   give(*labelImage(0));
   const auto dropped = give(*behind);
@@ -245,7 +245,7 @@ TEST_F(CameraLabelledAdapterTest, B9_assigningAMapKeepsTheObserverOfTheOneThatIs
   EXPECT_EQ(seen_by_target, 1);
 }
 
-TEST_F(CameraLabelledAdapterTest, pixelsThatTheLabelSetIgnoresOrDoesNotKnowAreCounted) {
+TEST_F(CameraLabelledAdapterTest, PixelsThatTheLabelSetIgnoresOrDoesNotKnowAreCounted) {
   give(*labelImage(0, 0, 77));
   const auto scans = give(*scanAt(0));
   ASSERT_EQ(scans.size(), 1U);
@@ -254,7 +254,7 @@ TEST_F(CameraLabelledAdapterTest, pixelsThatTheLabelSetIgnoresOrDoesNotKnowAreCo
   EXPECT_EQ(statistics().points.unknown, 1U);
 }
 
-TEST_F(CameraLabelledAdapterTest, aRangeCameraLabelsItsOwnPointsFromItsOwnImage) {
+TEST_F(CameraLabelledAdapterTest, ARangeCameraLabelsItsOwnPointsFromItsOwnImage) {
   LabelOptions options = cameraOptions();
   options.sources[0].label_image = "kinect";
   CameraLabelledAdapter adapter(options, labels_);
@@ -274,7 +274,7 @@ TEST_F(CameraLabelledAdapterTest, aRangeCameraLabelsItsOwnPointsFromItsOwnImage)
   EXPECT_THAT(scans->front().scan.labels, ElementsAre(kRoad, kWall));
 }
 
-TEST_F(CameraLabelledAdapterTest, sensorsThatLabelThemselvesNeedNoCamera) {
+TEST_F(CameraLabelledAdapterTest, SensorsThatLabelThemselvesNeedNoCamera) {
   LabelOptions options = cameraOptions();
   LabelSource self;
   self.sensor_label = "cloud";
@@ -286,14 +286,14 @@ TEST_F(CameraLabelledAdapterTest, sensorsThatLabelThemselvesNeedNoCamera) {
   EXPECT_THAT(scans->front().scan.labels, ElementsAre(kWall, kWall)) << "by intensity";
 }
 
-TEST_F(CameraLabelledAdapterTest, otherImagesAndKindsAreNotTaken) {
+TEST_F(CameraLabelledAdapterTest, OtherImagesAndKindsAreNotTaken) {
   auto other = labelImage(0);
   other->sensorLabel = "another camera";
   EXPECT_FALSE(adapter_.adapt(*other, roundedPose({}), rules_));
   EXPECT_FALSE(adapter_.adapt(mrpt::obs::CObservationOdometry(), roundedPose({}), rules_));
 }
 
-TEST_F(CameraLabelledAdapterTest, theObserverReceivesThePhotoInEitherOrder) {
+TEST_F(CameraLabelledAdapterTest, TheObserverReceivesThePhotoInEitherOrder) {
   std::vector<LabelledScan> seen;
   adapter_.setObserver([&](const LabelledScan& scan) { seen.push_back(scan); });
   for (const bool photo_first : {true, false}) {
@@ -329,7 +329,7 @@ class DamagedImageTest : public CameraLabelledAdapterTest {
   }
 };
 
-TEST_F(DamagedImageTest, aCameraWithoutCalibration) {
+TEST_F(DamagedImageTest, ACameraWithoutCalibration) {
   auto image = labelImage(0);
   image->cameraParams = mrpt::img::TCamera();
   EXPECT_THAT(reasonOf(*image), HasSubstr("not calibrated"));
@@ -337,20 +337,20 @@ TEST_F(DamagedImageTest, aCameraWithoutCalibration) {
   EXPECT_EQ(statistics().cameras[0].images.refused, 1U);
 }
 
-TEST_F(DamagedImageTest, anImageOfAnotherSizeThanItsCalibration) {
+TEST_F(DamagedImageTest, AnImageOfAnotherSizeThanItsCalibration) {
   auto image = labelImage(0);
   image->cameraParams.ncols = 640;
   image->cameraParams.nrows = 480;
   EXPECT_THAT(reasonOf(*image), HasSubstr("100 x 80 pixels, but its calibration is for 640 x 480"));
 }
 
-TEST_F(DamagedImageTest, aFileThatIsMissingOrCorrupt) {
+TEST_F(DamagedImageTest, AFileThatIsMissingOrCorrupt) {
   auto image = labelImage(0);
   image->image = mrpt::img::CImage();
   image->image.setExternalStorage("/nowhere/image.jpg");
   EXPECT_THAT(reasonOf(*image), HasSubstr("missing or damaged: /nowhere/image.jpg"));
 
-  const std::string corrupt = ::testing::TempDir() + "corrupt.jpg";
+  const std::string corrupt = testing::TempDir() + "corrupt.jpg";
   std::ofstream(corrupt) << "\xff\xd8\xff\xe0 no JPEG";
   image->image.setExternalStorage(corrupt);
   EXPECT_THAT(reasonOf(*image), HasSubstr("missing or damaged: " + corrupt));
@@ -359,13 +359,13 @@ TEST_F(DamagedImageTest, aFileThatIsMissingOrCorrupt) {
   EXPECT_THAT(reasonOf(*image), HasSubstr("holds no image"));
 }
 
-TEST_F(DamagedImageTest, coloursWhereIdsAreExpected) {
+TEST_F(DamagedImageTest, ColoursWhereIdsAreExpected) {
   auto image = labelImage(0);
   image->image = mrpt::img::CImage(kWidth, kHeight, mrpt::img::CH_RGB);
   EXPECT_THAT(reasonOf(*image), HasSubstr("colours, not the gray values"));
 }
 
-TEST_F(DamagedImageTest, noTimeStamp) {
+TEST_F(DamagedImageTest, NoTimeStamp) {
   auto image = labelImage(0);
   image->timestamp = INVALID_TIMESTAMP;
   EXPECT_THAT(reasonOf(*image), HasSubstr("no time stamp"));
@@ -374,7 +374,7 @@ TEST_F(DamagedImageTest, noTimeStamp) {
   EXPECT_THAT(reasonOf(*scan), HasSubstr("no time stamp"));
 }
 
-TEST_F(DamagedImageTest, twoCamerasWithTheSameLabel) {
+TEST_F(DamagedImageTest, TwoCamerasWithTheSameLabel) {
   give(*labelImage(0));
   EXPECT_THAT(reasonOf(*labelImage(0, kWallId, kWallId)), HasSubstr("another image"));
   EXPECT_EQ(statistics().cameras[0].images.refused, 1U);
@@ -383,7 +383,7 @@ TEST_F(DamagedImageTest, twoCamerasWithTheSameLabel) {
   EXPECT_THAT(scans[0].scan.labels, ElementsAre(kRoad, kWall)) << "the first one counts";
 }
 
-TEST_F(DamagedImageTest, aCalibrationThatCannotBe) {
+TEST_F(DamagedImageTest, ACalibrationThatCannotBe) {
   auto image = labelImage(0);
   image->cameraParams.intrinsicParams(0, 2) = std::nan("");
   EXPECT_NE(reasonOf(*image), "no error");
@@ -391,7 +391,7 @@ TEST_F(DamagedImageTest, aCalibrationThatCannotBe) {
 
 // Time that goes back.
 
-TEST_F(CameraLabelledAdapterTest, slightDisorderIsSorted) {
+TEST_F(CameraLabelledAdapterTest, SlightDisorderIsSorted) {
   give(*labelImage(0.05, kWallId, kWallId));
   give(*labelImage(0.0));
   const auto scans = give(*scanAt(0.01));
@@ -400,7 +400,7 @@ TEST_F(CameraLabelledAdapterTest, slightDisorderIsSorted) {
   EXPECT_EQ(statistics().clock_restarts, 0U);
 }
 
-TEST_F(CameraLabelledAdapterTest, timeMayBeginAtZero) {
+TEST_F(CameraLabelledAdapterTest, TimeMayBeginAtZero) {
   auto image = labelImage(0);
   auto scan = scanAt(0);
   image->timestamp = scan->timestamp = mrpt::Clock::fromDouble(0);
@@ -408,7 +408,7 @@ TEST_F(CameraLabelledAdapterTest, timeMayBeginAtZero) {
   EXPECT_EQ(give(*scan).size(), 1U);
 }
 
-TEST_F(CameraLabelledAdapterTest, aClockThatGoesBackStartsAnew) {
+TEST_F(CameraLabelledAdapterTest, AClockThatGoesBackStartsAnew) {
   give(*labelImage(100, kWallId, kWallId));
   give(*scanAt(100.02));
   const auto finished = give(*labelImage(0));
@@ -421,7 +421,7 @@ TEST_F(CameraLabelledAdapterTest, aClockThatGoesBackStartsAnew) {
   EXPECT_THAT(scans[0].scan.labels, ElementsAre(kRoad, kWall));
 }
 
-TEST_F(CameraLabelledAdapterTest, aScanThatComesLateIsCounted) {
+TEST_F(CameraLabelledAdapterTest, AScanThatComesLateIsCounted) {
   for (int i = 0; i <= 50; ++i) give(*labelImage(0.1 * i));
   // Earlier than now, but not by so much that the clock must have been set back.
   const auto scans = give(*scanAt(4.2));
@@ -436,7 +436,7 @@ TEST_F(CameraLabelledAdapterTest, aScanThatComesLateIsCounted) {
   EXPECT_EQ(statistics().scans.late, 1U);
 }
 
-TEST_F(CameraLabelledAdapterTest, noMoreThanSixtyFourScansWait) {
+TEST_F(CameraLabelledAdapterTest, NoMoreThanSixtyFourScansWait) {
   LabelOptions options = cameraOptions();
   options.max_time_offset = 3600;
   CameraLabelledAdapter patient(options, labels_);
@@ -458,7 +458,7 @@ CSemanticContinuousMap cameraMap() {
   return map;
 }
 
-TEST(CameraLabelledMap, scansThatWaitAreInWhatIsSavedButNotYetInTheMap) {
+TEST(CameraLabelledMap, ScansThatWaitAreInWhatIsSavedButNotYetInTheMap) {
   CSemanticContinuousMap map = cameraMap();
   EXPECT_TRUE(map.insertObservation(*labelImage(-0.05)));
   EXPECT_EQ(map.lastInsertion().outcome, LastInsertion::Outcome::Kept);
@@ -474,7 +474,7 @@ TEST(CameraLabelledMap, scansThatWaitAreInWhatIsSavedButNotYetInTheMap) {
   EXPECT_EQ(map.scans().size(), 1U);
 }
 
-TEST(CameraLabelledMap, copiesCarryWhatWaits) {
+TEST(CameraLabelledMap, CopiesCarryWhatWaits) {
   CSemanticContinuousMap map = cameraMap();
   map.insertObservation(*labelImage(0, kWallId, kWallId));
   map.insertObservation(*scanAt(0.04));
@@ -501,7 +501,7 @@ TEST(CameraLabelledMap, copiesCarryWhatWaits) {
   }
 }
 
-TEST(CameraLabelledMap, anyLabelOutvotesWhatNoCameraSaw) {
+TEST(CameraLabelledMap, AnyLabelOutvotesWhatNoCameraSaw) {
   LabelOptions options = cameraOptions();
   options.outside_view = OutsideView::Unlabelled;
   CSemanticContinuousMap map = cameraMap();
@@ -515,7 +515,7 @@ TEST(CameraLabelledMap, anyLabelOutvotesWhatNoCameraSaw) {
   EXPECT_EQ(map.map().at({5, 1, 0}).mostLikelyClass(), kRoad);
 }
 
-TEST(CameraLabelledMap, aDamagedImageIsReportedAndTheScanBeforeItIsNotLost) {
+TEST(CameraLabelledMap, ADamagedImageIsReportedAndTheScanBeforeItIsNotLost) {
   CSemanticContinuousMap map = cameraMap();
   map.warn_of_damaged = false;
   map.insertObservation(*labelImage(0));

@@ -16,7 +16,7 @@
 namespace csom {
 namespace {
 
-using ::testing::HasSubstr;
+using testing::HasSubstr;
 using Definition = CSemanticContinuousMap::TMapDefinition;
 
 Definition campusDefinition() {
@@ -57,7 +57,7 @@ Labelled label(const Definition& definition) {
   return labelled;
 }
 
-TEST(CameraNetwork, labelsPointsInView) {
+TEST(CameraNetwork, LabelsPointsInView) {
   const Labelled labelled = label(campusDefinition());
   ASSERT_EQ(labelled.scans.size(), 3U);
   EXPECT_EQ(labelled.statistics.cameras.at(0).images.network_runs, 3U);
@@ -70,7 +70,7 @@ TEST(CameraNetwork, labelsPointsInView) {
   }
 }
 
-TEST(CameraNetwork, softLabelsAreDistributionsWhoseBestClassIsTheHardLabel) {
+TEST(CameraNetwork, SoftLabelsAreDistributionsWhoseBestClassIsTheHardLabel) {
   Definition definition = campusDefinition();
   const Labelled hard = label(definition);
   definition.labelOpts.points.label_mode = PointLabellingOptions::LabelMode::Soft;
@@ -98,7 +98,7 @@ TEST(CameraNetwork, softLabelsAreDistributionsWhoseBestClassIsTheHardLabel) {
   }
 }
 
-TEST(CameraNetwork, unsurePointsAreDroppedOrKeptAsDistributions) {
+TEST(CameraNetwork, UnsurePointsAreDroppedOrKeptAsDistributions) {
   Definition definition = campusDefinition();
   definition.labelOpts.points.min_confidence = 0.9;
   const Labelled dropped = label(definition);
@@ -113,9 +113,9 @@ TEST(CameraNetwork, unsurePointsAreDroppedOrKeptAsDistributions) {
   EXPECT_EQ(points_kept, points_dropped + low);
 }
 
-TEST(CameraNetwork, aCachedRunNeedsNoNetworkAndGivesTheSameScans) {
+TEST(CameraNetwork, ACachedRunNeedsNoNetworkAndGivesTheSameScans) {
   const std::filesystem::path cache =
-      std::filesystem::path(::testing::TempDir()) / "csom_camera_network_cache";
+      std::filesystem::path(testing::TempDir()) / "csom_camera_network_cache";
   std::filesystem::remove_all(cache);
   Definition definition = campusDefinition();
   const Labelled plain = label(definition);
@@ -132,7 +132,7 @@ TEST(CameraNetwork, aCachedRunNeedsNoNetworkAndGivesTheSameScans) {
   }
 }
 
-TEST(CameraNetwork, whatIsWrongWithItIsSaidBeforeTheFirstImage) {
+TEST(CameraNetwork, WhatIsWrongWithItIsSaidBeforeTheFirstImage) {
   Definition definition = campusDefinition();
   definition.labelOpts.sources[0].model = "/nowhere/model.onnx";
   CSemanticContinuousMap map(definition);

@@ -56,7 +56,7 @@ Tables writtenTables() {
   return tables;
 }
 
-TEST(IniReference, itsTablesAreWhatTheProgramPrints) {
+TEST(IniReference, ItsTablesAreWhatTheProgramPrints) {
   const Tables expected = expectedTables();
   EXPECT_EQ(expected.size(), 6u) << "sections";
   EXPECT_GT(expected.at("insertOpts").size(), 30u);
@@ -68,10 +68,9 @@ TEST(IniReference, itsTablesAreWhatTheProgramPrints) {
   }
 }
 
-TEST(IniReference, everyKeyIsExplained) {
+TEST(IniReference, EveryKeyIsExplained) {
   for (const auto& [section, rows] : expectedTables())
-    for (const std::string& row : rows)
-      EXPECT_THAT(row, ::testing::Not(::testing::HasSubstr("|  |")));
+    for (const std::string& row : rows) EXPECT_THAT(row, testing::Not(testing::HasSubstr("|  |")));
 }
 
 }  // namespace

@@ -18,16 +18,16 @@ namespace {
 
 using Kind = PointLabel::Kind;
 
-TEST(LabelRules, rawIdsBecomeClasses) {
-  const LabelSet labels = testing::sampleLabels();
+TEST(LabelRules, RawIdsBecomeClasses) {
+  const LabelSet labels = test::sampleLabels();
   const LabelRules rules(labels, PointLabels::ByIntensity, "", "");
   EXPECT_EQ(rules.fromRaw(40), (PointLabel{Kind::Class, 1}));
   EXPECT_EQ(rules.fromRaw(0), PointLabel{Kind::Ignored});
   EXPECT_EQ(rules.fromRaw(41), PointLabel{Kind::Unknown});
 }
 
-TEST(LabelRules, intensitiesMustBeWholeNumbers) {
-  const LabelSet labels = testing::sampleLabels();
+TEST(LabelRules, IntensitiesMustBeWholeNumbers) {
+  const LabelSet labels = test::sampleLabels();
   const LabelRules rules(labels, PointLabels::ByIntensity, "", "");
   EXPECT_EQ(rules.fromIntensity(50.0f), (PointLabel{Kind::Class, 2}));
   for (const float bad : {50.5f, -40.0f, 1e30f, std::numeric_limits<float>::quiet_NaN(),
@@ -35,8 +35,8 @@ TEST(LabelRules, intensitiesMustBeWholeNumbers) {
     EXPECT_EQ(rules.fromIntensity(bad), PointLabel{Kind::Unknown}) << bad;
 }
 
-TEST(LabelRules, coloursAndNamesMustMatchExactly) {
-  const LabelSet labels = testing::sampleLabels();
+TEST(LabelRules, ColoursAndNamesMustMatchExactly) {
+  const LabelSet labels = test::sampleLabels();
   const LabelRules rules(labels, PointLabels::ByColor, "", "");
   EXPECT_EQ(rules.fromColor({0, 200, 0}), (PointLabel{Kind::Class, 2}));
   EXPECT_EQ(rules.fromColor({0, 201, 0}), PointLabel{Kind::Unknown});
@@ -61,21 +61,21 @@ TEST(LabelRules, A1_noLabelOfAPointMeansFree) {
             PointLabel{Kind::Unknown});
 }
 
-TEST(LabelRules, unlabelledPointsHaveADefaultClass) {
-  const LabelSet sample = testing::sampleLabels();
+TEST(LabelRules, UnlabelledPointsHaveADefaultClass) {
+  const LabelSet sample = test::sampleLabels();
   EXPECT_EQ(LabelRules(sample, PointLabels::None, "", "").unlabelledClass(), ClassId{3});
   const LabelSet occupancy = LabelSet::occupancy();
   EXPECT_EQ(LabelRules(occupancy, PointLabels::None, "", "").unlabelledClass(), ClassId{1});
 }
 
-TEST(LabelRules, unlabelledPointsMayBeDroppedOrNamed) {
-  const LabelSet labels = testing::sampleLabels();
+TEST(LabelRules, UnlabelledPointsMayBeDroppedOrNamed) {
+  const LabelSet labels = test::sampleLabels();
   EXPECT_FALSE(LabelRules(labels, PointLabels::None, "drop", "").unlabelledClass());
   EXPECT_EQ(LabelRules(labels, PointLabels::None, "wall", "").unlabelledClass(), ClassId{2});
 }
 
-TEST(LabelRules, scansOf2DFollowTheirOwnKey) {
-  const LabelSet labels = testing::sampleLabels();
+TEST(LabelRules, ScansOf2DFollowTheirOwnKey) {
+  const LabelSet labels = test::sampleLabels();
   EXPECT_EQ(LabelRules(labels, PointLabels::None, "", "wall").ofScan2D(),
             (PointLabel{Kind::Class, 2}));
   EXPECT_EQ(LabelRules(labels, PointLabels::None, "road", "").ofScan2D(),
@@ -83,20 +83,20 @@ TEST(LabelRules, scansOf2DFollowTheirOwnKey) {
   EXPECT_EQ(LabelRules(labels, PointLabels::None, "drop", "").ofScan2D(), PointLabel{});
 }
 
-TEST(LabelRules, unknownClassNamesAreNamedInTheError) {
-  const LabelSet labels = testing::sampleLabels();
+TEST(LabelRules, UnknownClassNamesAreNamedInTheError) {
+  const LabelSet labels = test::sampleLabels();
   try {
     LabelRules(labels, PointLabels::None, "lawn", "");
     FAIL() << "accepted";
   } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), ::testing::AllOf(::testing::HasSubstr("unlabelled_class = lawn"),
-                                               ::testing::HasSubstr("road, wall")));
+    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("unlabelled_class = lawn"),
+                                             testing::HasSubstr("road, wall")));
   }
   EXPECT_THROW(LabelRules(labels, PointLabels::None, "free", ""), ConfigError);
   EXPECT_THROW(LabelRules(labels, PointLabels::None, "", "lawn"), ConfigError);
 }
 
-TEST(LabelRules, pointLabelsParse) {
+TEST(LabelRules, PointLabelsParse) {
   for (const PointLabels value :
        {PointLabels::None, PointLabels::ByIntensity, PointLabels::ByColor}) {
     PointLabels parsed = PointLabels::None;

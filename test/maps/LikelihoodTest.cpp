@@ -18,12 +18,12 @@ namespace csom {
 namespace {
 
 using mrpt::poses::CPose3D;
-using testing::roomCloud;
-using testing::roomMap;
-using testing::roomPoints;
-using testing::sampleMap;
+using test::roomCloud;
+using test::roomMap;
+using test::roomPoints;
+using test::sampleMap;
 
-TEST(Likelihood, fallsWithTheDistanceFromTheTruth) {
+TEST(Likelihood, FallsWithTheDistanceFromTheTruth) {
   const CSemanticContinuousMap map = roomMap();
   double previous = map.computeObservationLikelihood(*roomCloud(), CPose3D());
   for (const double offset : {0.3, 0.6, 0.9}) {
@@ -36,7 +36,7 @@ TEST(Likelihood, fallsWithTheDistanceFromTheTruth) {
             map.computeObservationLikelihood(*roomCloud(), CPose3D(0, 0, 0, 0.02, 0, 0)));
 }
 
-TEST(Likelihood, followsItsFormula) {
+TEST(Likelihood, FollowsItsFormula) {
   CSemanticContinuousMap map = sampleMap();
   map.insertObservation(*roomCloud());
   map.likelihoodOptions = {};
@@ -48,14 +48,14 @@ TEST(Likelihood, followsItsFormula) {
                    -12.5);
 }
 
-TEST(Likelihood, saysNothingWithoutPoints) {
+TEST(Likelihood, SaysNothingWithoutPoints) {
   const CSemanticContinuousMap map = roomMap();
   EXPECT_FALSE(map.canComputeObservationLikelihood(mrpt::obs::CObservationOdometry()));
   EXPECT_EQ(map.computeObservationLikelihood(mrpt::obs::CObservationOdometry(), CPose3D()), 0);
   EXPECT_EQ(map.computeObservationLikelihood(mrpt::obs::CObservationPointCloud(), CPose3D()), 0);
 }
 
-TEST(Likelihood, saysNothingOfACloudWhoseFileIsMissing) {
+TEST(Likelihood, SaysNothingOfACloudWhoseFileIsMissing) {
   const CSemanticContinuousMap map = roomMap();
   using mrpt::obs::CObservationPointCloud;
   for (const auto format : {CObservationPointCloud::ExternalStorageFormat::MRPT_Serialization,
@@ -67,7 +67,7 @@ TEST(Likelihood, saysNothingOfACloudWhoseFileIsMissing) {
   }
 }
 
-TEST(Likelihood, wrongOptionsAreNoDamagedObservation) {
+TEST(Likelihood, WrongOptionsAreNoDamagedObservation) {
   CSemanticContinuousMap map = roomMap();
   map.insertionOptions.unlabelled_class = "lawn";
   EXPECT_THROW(map.computeObservationLikelihood(*roomCloud(), CPose3D()), ConfigError);
@@ -75,11 +75,11 @@ TEST(Likelihood, wrongOptionsAreNoDamagedObservation) {
 
 /// One observation of every kind that carries points, each with walls around the sensor.
 std::vector<mrpt::obs::CObservation::Ptr> everyKind() {
-  return {testing::laserScan(361, 3.0f), testing::rangeCamera(), testing::velodyneRoom(),
-          testing::rotatingScan(), roomCloud()};
+  return {test::laserScan(361, 3.0f), test::rangeCamera(), test::velodyneRoom(),
+          test::rotatingScan(), roomCloud()};
 }
 
-TEST(Likelihood, isHighestAtTheTruthForEveryKind) {
+TEST(Likelihood, IsHighestAtTheTruthForEveryKind) {
   for (const LikelihoodMethod method : {LikelihoodMethod::Field, LikelihoodMethod::Beam}) {
     for (const auto& observation : everyKind()) {
       SCOPED_TRACE(toString(method) + ", " + observation->GetRuntimeClass()->className);
@@ -98,14 +98,14 @@ TEST(Likelihood, isHighestAtTheTruthForEveryKind) {
   }
 }
 
-TEST(Likelihood, cannotBeComputedOfWhatHoldsNoPoints) {
+TEST(Likelihood, CannotBeComputedOfWhatHoldsNoPoints) {
   const CSemanticContinuousMap map = roomMap();
-  auto unknown_rows = testing::rotatingScan();
+  auto unknown_rows = test::rotatingScan();
   unknown_rows->lidarModel = "OS1";
   unknown_rows->rowCount = 4;
   unknown_rows->rangeImage.setZero(4, 360);
   const std::vector<mrpt::obs::CObservation::Ptr> none = {
-      testing::laserScan(0),
+      test::laserScan(0),
       mrpt::obs::CObservation3DRangeScan::Create(),
       mrpt::obs::CObservationVelodyneScan::Create(),
       mrpt::obs::CObservationRotatingScan::Create(),
@@ -120,7 +120,7 @@ TEST(Likelihood, cannotBeComputedOfWhatHoldsNoPoints) {
   }
 }
 
-TEST(Likelihood, fieldFindsTheNearestVoxelOrOneHardlyFarther) {
+TEST(Likelihood, FieldFindsTheNearestVoxelOrOneHardlyFarther) {
   const CSemanticContinuousMap map = roomMap();
   const double diagonal = std::sqrt(3.0) * map.map().grid().resolution();
   constexpr double kMaxDistance = 1.5;
@@ -155,7 +155,7 @@ TEST(Likelihood, fieldFindsTheNearestVoxelOrOneHardlyFarther) {
   EXPECT_LT(excess / found_points, 0.02 * diagonal);
 }
 
-TEST(Likelihood, followsInsertions) {
+TEST(Likelihood, FollowsInsertions) {
   CSemanticContinuousMap map = roomMap();
   const CPose3D outside(0, 8, 0, 0, 0, 0);
   const double before = map.computeObservationLikelihood(*roomCloud(), outside);
@@ -168,7 +168,7 @@ TEST(Likelihood, followsInsertions) {
   EXPECT_EQ(map.computeObservationLikelihood(*roomCloud(), outside), -8);  // all at max_distance
 }
 
-TEST(Likelihood, followsMaxDistance) {
+TEST(Likelihood, FollowsMaxDistance) {
   CSemanticContinuousMap map = roomMap();
   const CPose3D beside(0.7, 0.7, 0, 0, 0, 0);
   for (const double max_distance : {1.0, 0.3, 1.0, 2.0}) {
@@ -179,7 +179,7 @@ TEST(Likelihood, followsMaxDistance) {
   }
 }
 
-TEST(Likelihood, seesThatAnObservationHasChanged) {
+TEST(Likelihood, SeesThatAnObservationHasChanged) {
   const CSemanticContinuousMap map = roomMap();
   const auto observation = roomCloud();
   const double before = map.computeObservationLikelihood(*observation, CPose3D());
@@ -188,11 +188,11 @@ TEST(Likelihood, seesThatAnObservationHasChanged) {
   EXPECT_LT(map.computeObservationLikelihood(*observation, CPose3D()), before - 1);
 }
 
-TEST(Likelihood, usesOnePointOutOfSoMany) {
+TEST(Likelihood, UsesOnePointOutOfSoMany) {
   CSemanticContinuousMap map = roomMap();
   std::vector<Eigen::Vector3f> points(40, {100, 0, 0});  // all but every fourth one far outside
   for (std::size_t i = 0; i < points.size(); i += 4) points[i] = {2.9f, 0.1f, 0.1f};
-  const auto cloud = testing::pointCloud(points, std::vector<float>(points.size(), 50));
+  const auto cloud = test::pointCloud(points, std::vector<float>(points.size(), 50));
   map.likelihoodOptions.decimation = 4;
   const double fitting = map.computeObservationLikelihood(*cloud, CPose3D());
   EXPECT_GT(fitting, -0.5);
@@ -204,12 +204,12 @@ TEST(Likelihood, usesOnePointOutOfSoMany) {
 CSemanticContinuousMap roadRoomAndWallRoom() {
   CSemanticContinuousMap map = sampleMap();
   const std::vector<Eigen::Vector3f> points = roomPoints();
-  map.insertObservation(*testing::pointCloud(points, std::vector<float>(points.size(), 40)));
+  map.insertObservation(*test::pointCloud(points, std::vector<float>(points.size(), 40)));
   map.insertObservation(*roomCloud(), CPose3D(20, 0, 0, 0, 0, 0));
   return map;
 }
 
-TEST(Likelihood, labelsTellRoomsOfTheSameShapeApart) {
+TEST(Likelihood, LabelsTellRoomsOfTheSameShapeApart) {
   for (const LikelihoodMethod method : {LikelihoodMethod::Field, LikelihoodMethod::Beam}) {
     SCOPED_TRACE(toString(method));
     CSemanticContinuousMap map = roadRoomAndWallRoom();
@@ -231,17 +231,17 @@ TEST(Likelihood, labelsTellRoomsOfTheSameShapeApart) {
   }
 }
 
-TEST(Likelihood, labelsThatSayNothingDoNotCount) {
+TEST(Likelihood, LabelsThatSayNothingDoNotCount) {
   CSemanticContinuousMap map = roadRoomAndWallRoom();
   const std::vector<Eigen::Vector3f> points = roomPoints();
-  const auto unknown = testing::pointCloud(points, std::vector<float>(points.size(), 77));
+  const auto unknown = test::pointCloud(points, std::vector<float>(points.size(), 77));
   const double without = map.computeObservationLikelihood(*unknown, CPose3D());
   map.likelihoodOptions.semantic_weight = 5;
   EXPECT_EQ(map.computeObservationLikelihood(*unknown, CPose3D()), without);
   EXPECT_NE(map.computeObservationLikelihood(*roomCloud(), CPose3D()), without);
 }
 
-TEST(Likelihood, pointsWithoutAVoxelHaveAllClassesAlike) {
+TEST(Likelihood, PointsWithoutAVoxelHaveAllClassesAlike) {
   CSemanticContinuousMap map = roadRoomAndWallRoom();
   map.likelihoodOptions.semantic_weight = 3;
   const CPose3D far(500, 0, 0, 0, 0, 0);
@@ -251,10 +251,10 @@ TEST(Likelihood, pointsWithoutAVoxelHaveAllClassesAlike) {
               -8 + 3 * std::log(1.0 / (unlabelled ? 2 : 3)), 1e-9);
 }
 
-TEST(Likelihood, beamsDoNotPassThroughWalls) {
+TEST(Likelihood, BeamsDoNotPassThroughWalls) {
   CSemanticContinuousMap map = roomMap();
   // A point on the far wall, seen from a pose in front of the near one: the field is content.
-  const auto far_wall = testing::pointCloud({{7.0f, 0.05f, 0.05f}}, {50});
+  const auto far_wall = test::pointCloud({{7.0f, 0.05f, 0.05f}}, {50});
   const CPose3D in_front(-4.05, 0, 0, 0, 0, 0);
   map.likelihoodOptions.decimation = 1;
   EXPECT_GT(map.computeObservationLikelihood(*far_wall, in_front), -0.5);
@@ -263,7 +263,7 @@ TEST(Likelihood, beamsDoNotPassThroughWalls) {
   EXPECT_GT(map.computeObservationLikelihood(*roomCloud(), CPose3D()), -0.5);
 }
 
-TEST(Likelihood, refusesImpossibleOptions) {
+TEST(Likelihood, RefusesImpossibleOptions) {
   CSemanticContinuousMap map = roomMap();
   map.likelihoodOptions.label_error = 0;
   EXPECT_THROW(map.computeObservationLikelihood(*roomCloud(), CPose3D()), OptionError);
@@ -272,7 +272,7 @@ TEST(Likelihood, refusesImpossibleOptions) {
   EXPECT_THROW(map.computeObservationLikelihood(*roomCloud(), CPose3D()), OptionError);
 }
 
-TEST(Likelihood, isTheSameFromEightThreads) {
+TEST(Likelihood, IsTheSameFromEightThreads) {
   for (const LikelihoodMethod method : {LikelihoodMethod::Field, LikelihoodMethod::Beam}) {
     CSemanticContinuousMap map = roadRoomAndWallRoom();
     map.likelihoodOptions.method = method;

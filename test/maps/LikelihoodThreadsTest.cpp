@@ -22,7 +22,7 @@ Scan stripedWall() {
   return scan;
 }
 
-TEST(LikelihoodThreads, agreeOnAMapThatNoneHasAskedYet) {
+TEST(LikelihoodThreads, AgreeOnAMapThatNoneHasAskedYet) {
   Options options;
   options.number_of_classes = 3;
   SemanticMap map(options);

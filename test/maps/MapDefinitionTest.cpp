@@ -19,20 +19,20 @@
 namespace csom {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
 using Definition = CSemanticContinuousMap::TMapDefinition;
 
-class MapDefinition : public ::testing::Test {
+class MapDefinition : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) /
+    folder_ = std::filesystem::path(testing::TempDir()) /
               ("csom_map_definition_" +
-               std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
-    std::ofstream(folder_ / "sample.yaml") << testing::sampleLabels().toYaml();
+    std::ofstream(folder_ / "sample.yaml") << test::sampleLabels().toYaml();
   }
 
   std::string file(const std::string& text) const {
@@ -62,7 +62,7 @@ class MapDefinition : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-TEST_F(MapDefinition, minimalIniGivesAnOccupancyMap) {
+TEST_F(MapDefinition, MinimalIniGivesAnOccupancyMap) {
   const Definition definition = load(section("creationOpts") + "resolution = 0.35\n");
   const CSemanticContinuousMap map(definition);
   EXPECT_EQ(map.map().options().resolution, 0.35);
@@ -91,7 +91,7 @@ bool comesFromLabelSet(const std::string& key) {
   return key == "number_of_classes" || key == "unlabelled_class_id";
 }
 
-TEST_F(MapDefinition, everyCoreOptionIsReadFromEverySection) {
+TEST_F(MapDefinition, EveryCoreOptionIsReadFromEverySection) {
   for (const char* suffix : {"creationOpts", "insertOpts", "insertionOpts"}) {
     std::string keys = section(suffix);
     const Options defaults;
@@ -108,7 +108,7 @@ TEST_F(MapDefinition, everyCoreOptionIsReadFromEverySection) {
   }
 }
 
-TEST_F(MapDefinition, keysOfTheMap) {
+TEST_F(MapDefinition, KeysOfTheMap) {
   const Definition definition =
       load(section("creationOpts") + "label_set = sample.yaml ; beside the ini\n" +
            "enableObservationLikelihood = false\n" + section("insertOpts") +
@@ -140,7 +140,7 @@ TEST_F(MapDefinition, keysOfTheMap) {
   EXPECT_FALSE(map.renderingOptions.visible_only);
 }
 
-TEST_F(MapDefinition, unknownKeysAndSectionsAreListed) {
+TEST_F(MapDefinition, UnknownKeysAndSectionsAreListed) {
   const std::string prefix =
       (folder_ / "map.ini").string() + " [MappingApplication_semanticContinuousMap_00_";
   const Definition definition =
@@ -151,7 +151,7 @@ TEST_F(MapDefinition, unknownKeysAndSectionsAreListed) {
                           prefix + "inserOpts] max_range"));
 }
 
-TEST_F(MapDefinition, wrongValuesAreNamed) {
+TEST_F(MapDefinition, WrongValuesAreNamed) {
   EXPECT_THAT(errorOf(section("creationOpts") + "resolution = fine\n"),
               AllOf(HasSubstr("map.ini [MappingApplication_semanticContinuousMap_00_creationOpts]"),
                     HasSubstr("resolution"), HasSubstr("fine")));
@@ -168,13 +168,13 @@ TEST_F(MapDefinition, wrongValuesAreNamed) {
   EXPECT_THAT(errorOf(section("likelihoodOpts") + "decimation = 1.5\n"), HasSubstr("decimation"));
 }
 
-TEST_F(MapDefinition, errorsAreOneLine) {
+TEST_F(MapDefinition, ErrorsAreOneLine) {
   for (const char* keys : {"resolution = fine\n", "label_set = nowhere.yaml\n",
                            "number_of_classes = 7\n", "prior = -2\n"})
     EXPECT_EQ(errorOf(section("creationOpts") + keys).find('\n'), std::string::npos) << keys;
 }
 
-TEST_F(MapDefinition, numberOfClassesComesFromTheLabelSet) {
+TEST_F(MapDefinition, NumberOfClassesComesFromTheLabelSet) {
   EXPECT_THAT(errorOf(section("creationOpts") + "label_set = sample.yaml\nnumber_of_classes = 5\n"),
               AllOf(HasSubstr("number_of_classes = 5"), HasSubstr("'sample' has 4")));
   EXPECT_EQ(load(section("creationOpts") + "label_set = sample.yaml\nnumber_of_classes = 4\n")
@@ -182,7 +182,7 @@ TEST_F(MapDefinition, numberOfClassesComesFromTheLabelSet) {
             4);
 }
 
-TEST_F(MapDefinition, labelSourcesAndTheirOptions) {
+TEST_F(MapDefinition, LabelSourcesAndTheirOptions) {
   std::ofstream(folder_ / "network.yaml") << "a description";
   std::ofstream(folder_ / "model.onnx") << "a model";
   const Definition definition =
@@ -218,7 +218,7 @@ TEST_F(MapDefinition, labelSourcesAndTheirOptions) {
   EXPECT_EQ(options.label_cache, "kept");
 }
 
-TEST_F(MapDefinition, pointsOutsideOfViewGiveTheLabelSetAClassForThem) {
+TEST_F(MapDefinition, PointsOutsideOfViewGiveTheLabelSetAClassForThem) {
   const std::string camera =
       section("labelSource_00") + "sensor_label = a\nsource = label_image\nlabel_image = b\n";
   const Definition definition = load(camera);
@@ -239,7 +239,7 @@ TEST_F(MapDefinition, A1_theClassOfUnlabelledPointsIsAddedIfItIsNamedSo) {
   }
 }
 
-TEST_F(MapDefinition, wrongLabelSourcesAreNamed) {
+TEST_F(MapDefinition, WrongLabelSourcesAreNamed) {
   const std::string first = section("labelSource_00");
   EXPECT_THAT(errorOf(first + "source = network\n"), HasSubstr("sensor_label is missing"));
   EXPECT_THAT(errorOf(first + "sensor_label = a\nsource = network\n"),
@@ -262,17 +262,17 @@ TEST_F(MapDefinition, wrongLabelSourcesAreNamed) {
   EXPECT_THAT(errorOf(section("labelOpts") + "temperature = 0\n"), HasSubstr("temperature = 0"));
 }
 
-TEST_F(MapDefinition, aLabelSourceBehindAGapIsNotOverlooked) {
+TEST_F(MapDefinition, ALabelSourceBehindAGapIsNotOverlooked) {
   EXPECT_THAT(load(section("labelSource_01") + "sensor_label = a\n").unknownKeys(),
               ElementsAre(HasSubstr("labelSource_01] sensor_label")));
 }
 
-TEST_F(MapDefinition, missingLabelSetIsNamed) {
+TEST_F(MapDefinition, MissingLabelSetIsNamed) {
   EXPECT_THAT(errorOf(section("creationOpts") + "label_set = nowhere.yaml\n"),
               HasSubstr("label_set = nowhere.yaml"));
 }
 
-TEST_F(MapDefinition, exactlyOneMapIsNeeded) {
+TEST_F(MapDefinition, ExactlyOneMapIsNeeded) {
   EXPECT_THROW(CSemanticContinuousMap::definitionFromIni(file("[MappingApplication]\n")),
                ConfigError);
   EXPECT_THROW(CSemanticContinuousMap::definitionFromIni(
@@ -286,7 +286,7 @@ TEST_F(MapDefinition, exactlyOneMapIsNeeded) {
                ConfigError);
 }
 
-TEST_F(MapDefinition, countsAreAddedUpNotBelieved) {
+TEST_F(MapDefinition, CountsAreAddedUpNotBelieved) {
   const auto error_of = [&](const std::string& counts) -> std::string {
     try {
       CSemanticContinuousMap::definitionFromIni(file("[MappingApplication]\n" + counts));
@@ -304,7 +304,7 @@ TEST_F(MapDefinition, countsAreAddedUpNotBelieved) {
               HasSubstr("CSemanticContinuousMap_count = -1 must not be negative"));
 }
 
-TEST_F(MapDefinition, caseOfSectionsAndKeysDoesNotMatter) {
+TEST_F(MapDefinition, CaseOfSectionsAndKeysDoesNotMatter) {
   const Definition definition = load(section("CreationOpts") + "Resolution = 0.35\n");
   EXPECT_EQ(definition.options.resolution, 0.35);
   EXPECT_THAT(definition.unknownKeys(), ElementsAre());
@@ -313,7 +313,7 @@ TEST_F(MapDefinition, caseOfSectionsAndKeysDoesNotMatter) {
               ElementsAre(HasSubstr("inserOpts] max_range")));
 }
 
-TEST_F(MapDefinition, otherNamesOfTheMapWorkToo) {
+TEST_F(MapDefinition, OtherNamesOfTheMapWorkToo) {
   const Definition definition = CSemanticContinuousMap::definitionFromIni(
       file("[M]\nCSemanticContinuousMap_count = 1\n"
            "[M_CSemanticContinuousMap_00_creationOpts]\nresolution = 0.4\n"),
@@ -321,13 +321,13 @@ TEST_F(MapDefinition, otherNamesOfTheMapWorkToo) {
   EXPECT_EQ(definition.options.resolution, 0.4);
 }
 
-TEST_F(MapDefinition, applicationsOfMrptAreWarned) {
+TEST_F(MapDefinition, ApplicationsOfMrptAreWarned) {
   const mrpt::config::CConfigFile ini(
       iniOf(section("creationOpts") + "resolutoin = 0.3\nresolution = 0.5\n"));
   mrpt::maps::TSetOfMetricMapInitializers definitions;
-  ::testing::internal::CaptureStderr();
+  testing::internal::CaptureStderr();
   definitions.loadFromConfigFile(ini, "MappingApplication");
-  EXPECT_THAT(::testing::internal::GetCapturedStderr(),
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
               AllOf(HasSubstr("warning"), HasSubstr("resolutoin")));
 
   mrpt::maps::CMultiMetricMap maps;
@@ -337,7 +337,7 @@ TEST_F(MapDefinition, applicationsOfMrptAreWarned) {
   EXPECT_EQ(map->map().options().resolution, 0.5);
 }
 
-TEST_F(MapDefinition, configurationsInMemoryHaveNoFile) {
+TEST_F(MapDefinition, ConfigurationsInMemoryHaveNoFile) {
   mrpt::config::CConfigFileMemory ini;
   ini.setContent("[X_creationOpts]\nresolutoin = 1\n");
   Definition definition;
@@ -345,7 +345,7 @@ TEST_F(MapDefinition, configurationsInMemoryHaveNoFile) {
   EXPECT_THAT(definition.unknownKeys(), ElementsAre("ini [X_creationOpts] resolutoin"));
 }
 
-TEST_F(MapDefinition, dumpShowsEveryKey) {
+TEST_F(MapDefinition, DumpShowsEveryKey) {
   std::ostringstream text;
   load(section("creationOpts") + "label_set = sample.yaml\n").dumpToTextStream(text);
   for (const char* key : {"label_set", "resolution", "method", "point_labels", "decimation",
@@ -353,7 +353,7 @@ TEST_F(MapDefinition, dumpShowsEveryKey) {
     EXPECT_THAT(text.str(), HasSubstr(key));
 }
 
-TEST_F(MapDefinition, defaultIniSaysWhatIsSoAnyway) {
+TEST_F(MapDefinition, DefaultIniSaysWhatIsSoAnyway) {
   const Definition read = CSemanticContinuousMap::definitionFromIni(file(defaultIni()));
   EXPECT_THAT(read.unknownKeys(), ElementsAre());
   const auto textOf = [](const Definition& definition) {

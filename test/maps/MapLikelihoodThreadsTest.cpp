@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Many threads ask one map for the likelihood of one observation, through MRPT's door. All that the
-// project has on that way is compiled with ThreadSanitizer, which ends the program at a race; MRPT's
-// own libraries are not.
+// project has on that way is compiled with ThreadSanitizer, which ends the program at a race;
+// MRPT's own libraries are not.
 #include <csom/maps/CSemanticContinuousMap.h>
 #include <gtest/gtest.h>
 
@@ -15,12 +15,12 @@ namespace {
 
 using mrpt::poses::CPose3D;
 
-TEST(MapLikelihoodThreads, agreeOnAMapThatNoneHasAskedYet) {
-  const auto observation = testing::roomCloud();
+TEST(MapLikelihoodThreads, AgreeOnAMapThatNoneHasAskedYet) {
+  const auto observation = test::roomCloud();
   std::vector<CPose3D> poses;
   for (int i = 0; i < 16; ++i) poses.emplace_back(0.2 * i, 0.1 * i, 0, 0.02 * i, 0, 0);
   for (const LikelihoodMethod method : {LikelihoodMethod::Field, LikelihoodMethod::Beam}) {
-    CSemanticContinuousMap map = testing::roomMap();
+    CSemanticContinuousMap map = test::roomMap();
     map.likelihoodOptions.method = method;
     map.likelihoodOptions.semantic_weight = 1;
     const CSemanticContinuousMap& asked = map;

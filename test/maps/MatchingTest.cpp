@@ -21,9 +21,9 @@ namespace csom {
 namespace {
 
 using mrpt::poses::CPose3D;
-using testing::roomCloud;
-using testing::roomMap;
-using testing::roomPoints;
+using test::roomCloud;
+using test::roomMap;
+using test::roomPoints;
 
 mrpt::maps::CSimplePointsMap roomPointsMap() {
   mrpt::maps::CSimplePointsMap points;
@@ -41,7 +41,7 @@ float ratioOf3dMatches(const CSemanticContinuousMap& map,
   return results.correspondencesRatio;
 }
 
-TEST(Matching, isTheSameFromManyThreads) {
+TEST(Matching, IsTheSameFromManyThreads) {
   const CSemanticContinuousMap map = roomMap();
   const auto observation = roomCloud();
   const double expected = map.computeObservationLikelihood(*observation, CPose3D());
@@ -70,7 +70,7 @@ TEST(Matching, isTheSameFromManyThreads) {
   }
 }
 
-TEST(Matching, findsItsOwnPoints) {
+TEST(Matching, FindsItsOwnPoints) {
   const CSemanticContinuousMap map = roomMap();
   const mrpt::maps::CSimplePointsMap points = roomPointsMap();
   mrpt::maps::TMatchingParams params;
@@ -85,7 +85,7 @@ TEST(Matching, findsItsOwnPoints) {
   EXPECT_GT(results.correspondencesRatio, 0.99f);
 }
 
-TEST(Matching, ratioIsHigherAtTheTruth) {
+TEST(Matching, RatioIsHigherAtTheTruth) {
   const CSemanticContinuousMap map = roomMap();
   const CSemanticContinuousMap other = roomMap();
   mrpt::maps::TMatchingRatioParams params;
@@ -95,7 +95,7 @@ TEST(Matching, ratioIsHigherAtTheTruth) {
   EXPECT_LT(map.compute3DMatchingRatio(&other, CPose3D(20, 0, 0, 0, 0, 0), params), 0.1f);
 }
 
-TEST(Matching, findsTheSemanticMapInASetOfMaps) {
+TEST(Matching, FindsTheSemanticMapInASetOfMaps) {
   const CSemanticContinuousMap map = roomMap();
   mrpt::maps::CMultiMetricMap set;  // as map-partition hands it over
   EXPECT_THROW(map.compute3DMatchingRatio(&set, CPose3D(), {}), std::invalid_argument);
@@ -105,14 +105,14 @@ TEST(Matching, findsTheSemanticMapInASetOfMaps) {
   EXPECT_LT(map.compute3DMatchingRatio(&set, CPose3D(20, 0, 0, 0, 0, 0), {}), 0.1f);
 }
 
-TEST(Matching, needsPointsOnTheOtherSide) {
+TEST(Matching, NeedsPointsOnTheOtherSide) {
   const CSemanticContinuousMap map = roomMap();
   const mrpt::maps::COccupancyGridMap2D grid;
   EXPECT_THROW(map.compute3DMatchingRatio(&grid, CPose3D(), {}), std::invalid_argument);
   EXPECT_THROW(map.compute3DMatchingRatio(nullptr, CPose3D(), {}), std::invalid_argument);
 }
 
-TEST(Matching, squareDistanceIsToTheNearestOccupiedVoxel) {
+TEST(Matching, SquareDistanceIsToTheNearestOccupiedVoxel) {
   const CSemanticContinuousMap map = roomMap();
   const float at_wall = map.squareDistanceToClosestCorrespondence(3.0f, 0.0f);
   const float in_middle = map.squareDistanceToClosestCorrespondence(0.0f, 0.0f);
@@ -122,13 +122,13 @@ TEST(Matching, squareDistanceIsToTheNearestOccupiedVoxel) {
             std::numeric_limits<float>::max());
 }
 
-TEST(Matching, pairsOfDifferentClassesAreLeftOut) {
+TEST(Matching, PairsOfDifferentClassesAreLeftOut) {
   const CSemanticContinuousMap map = roomMap();  // of walls
   const std::vector<Eigen::Vector3f> points = roomPoints();
   std::vector<float> labels(points.size(), 50);                       // wall
   for (std::size_t i = 0; i < labels.size(); i += 4) labels[i] = 40;  // road
   for (std::size_t i = 1; i < labels.size(); i += 4) labels[i] = 77;  // says nothing
-  const auto cloud = testing::pointCloud(points, labels);
+  const auto cloud = test::pointCloud(points, labels);
   mrpt::maps::TMatchingParams params;
   params.maxDistForCorrespondence = 0.3f;
   mrpt::tfest::TMatchingPairList pairs;
@@ -138,8 +138,8 @@ TEST(Matching, pairsOfDifferentClassesAreLeftOut) {
   EXPECT_NEAR(static_cast<double>(pairs.size()), 0.75 * static_cast<double>(points.size()), 10);
   for (const auto& pair : pairs) EXPECT_NE(pair.localIdx % 4, 0u);
 
-  CSemanticContinuousMap road_room = testing::sampleMap();
-  road_room.insertObservation(*testing::pointCloud(points, std::vector<float>(points.size(), 40)));
+  CSemanticContinuousMap road_room = test::sampleMap();
+  road_room.insertObservation(*test::pointCloud(points, std::vector<float>(points.size(), 40)));
   map.determineMatching3D(&road_room, CPose3D(), pairs, params, results);
   EXPECT_EQ(pairs.size(), 0u);
   EXPECT_EQ(results.correspondencesRatio, 0);
@@ -164,13 +164,13 @@ mrpt::maps::CSimplePointsMap shiftedRoom() {
 CSemanticContinuousMap mapOf(const mrpt::maps::CSimplePointsMap& points) {
   mrpt::obs::CObservationPointCloud observation;
   observation.pointcloud = std::make_shared<mrpt::maps::CSimplePointsMap>(points);
-  CSemanticContinuousMap map = testing::sampleMap();
+  CSemanticContinuousMap map = test::sampleMap();
   map.insertionOptions.point_labels = PointLabels::None;
   map.insertObservation(observation);
   return map;
 }
 
-TEST(Matching, surfacesAreThinnerThanTheirVoxels) {
+TEST(Matching, SurfacesAreThinnerThanTheirVoxels) {
   constexpr double kWall = 3.03;
   Options options;
   options.method = Method::SeeCsom;
@@ -200,7 +200,7 @@ TEST(Matching, surfacesAreThinnerThanTheirVoxels) {
   EXPECT_LT(std::sqrt(sum / count), 0.05);
 }
 
-TEST(Matching, icpAlignsAScanIn3d) {
+TEST(Matching, IcpAlignsAScanIn3d) {
   const mrpt::maps::CSimplePointsMap scan = shiftedRoom();
   const CSemanticContinuousMap map = mapOf(scan);
   mrpt::slam::CICP icp;

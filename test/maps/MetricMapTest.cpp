@@ -23,16 +23,16 @@ namespace {
 
 using mrpt::maps::CMultiMetricMap;
 using mrpt::poses::CPose3D;
-using testing::laserScan;
-using testing::pointCloud;
-using testing::roomCloud;
-using testing::roomMap;
-using testing::sampleMap;
+using test::laserScan;
+using test::pointCloud;
+using test::roomCloud;
+using test::roomMap;
+using test::sampleMap;
 
 static_assert(std::is_copy_constructible_v<CSemanticContinuousMap>);
 static_assert(std::is_copy_assignable_v<CSemanticContinuousMap>);
 
-TEST(MetricMap, isCreatedByItsNames) {
+TEST(MetricMap, IsCreatedByItsNames) {
   for (const char* name :
        {"csom::CSemanticContinuousMap", "CSemanticContinuousMap", "semanticContinuousMap"}) {
     const std::unique_ptr<mrpt::maps::TMetricMapInitializer> definition(
@@ -44,7 +44,7 @@ TEST(MetricMap, isCreatedByItsNames) {
   EXPECT_NE(dynamic_cast<CSemanticContinuousMap*>(object.get()), nullptr);
 }
 
-TEST(MetricMap, startsEmpty) {
+TEST(MetricMap, StartsEmpty) {
   const CSemanticContinuousMap map;
   EXPECT_TRUE(map.isEmpty());
   EXPECT_TRUE(map.scans().empty());
@@ -52,7 +52,7 @@ TEST(MetricMap, startsEmpty) {
   EXPECT_TRUE(map.getAsSimplePointsMap()->empty());
 }
 
-TEST(MetricMap, insertsWhereThePointsAre) {
+TEST(MetricMap, InsertsWhereThePointsAre) {
   CSemanticContinuousMap map = sampleMap();
   auto observation = pointCloud({{1.5f, 0, 0}}, {40});
   ASSERT_TRUE(map.insertObservation(*observation, CPose3D(10, 0, 0, M_PI / 2, 0, 0)));
@@ -62,7 +62,7 @@ TEST(MetricMap, insertsWhereThePointsAre) {
   EXPECT_EQ(map.map().at({12, 1.5, 0}).state(), VoxelState::Unknown);
 }
 
-TEST(MetricMap, recordsEveryInsertedObservation) {
+TEST(MetricMap, RecordsEveryInsertedObservation) {
   CSemanticContinuousMap map = sampleMap();
   map.insertObservation(*pointCloud({{1, 0, 0}, {2, 0, 0}}, {40, 77}), CPose3D(1, 2, 3, 0, 0, 0));
   ASSERT_EQ(map.scans().size(), 1u);
@@ -70,13 +70,13 @@ TEST(MetricMap, recordsEveryInsertedObservation) {
   EXPECT_DOUBLE_EQ(record.timestamp, 1500000000.25);
   EXPECT_EQ(record.sensor_label, "cloud");
   EXPECT_EQ(record.observation_class, "CObservationPointCloud");
-  EXPECT_THAT(record.origin, ::testing::ElementsAre(1, 2, 3));
+  EXPECT_THAT(record.origin, testing::ElementsAre(1, 2, 3));
   EXPECT_EQ(record.report.points, 2u) << "what cannot be labelled is an obstacle all the same";
   EXPECT_EQ(map.statistics().labels.kept_unknown, 1u);
   EXPECT_EQ(map.document().meta.at("points_with_unknown_label_kept_unlabelled"), "1");
 }
 
-TEST(MetricMap, whatHasNoUsableLabelIsRejectedByNameIfItIsNotKept) {
+TEST(MetricMap, WhatHasNoUsableLabelIsRejectedByNameIfItIsNotKept) {
   CSemanticContinuousMap map = sampleMap();
   map.insertionOptions.unlabelled_class = "drop";
   auto observation = pointCloud({{1, 0, 0}, {2, 0, 0}, {0, 0, 0}}, {40, 77, 40});
@@ -92,7 +92,7 @@ TEST(MetricMap, B9_aScanThatCannotBeInsertedIsRefusedAndNotThrown) {
   options.resolution = 0.064;
   options.free_space.mode = FreeSpace::Sampled;
   options.free_space.resolution = 0.001;  // 2^27 free samples are soon reached
-  CSemanticContinuousMap map(options, testing::sampleLabels());
+  CSemanticContinuousMap map(options, test::sampleLabels());
   map.insertionOptions.point_labels = PointLabels::ByIntensity;
   std::vector<Eigen::Vector3f> points;
   for (int i = 0; i < 20000; ++i) points.emplace_back(7.9f, 0.0001f * static_cast<float>(i), 0.0f);
@@ -100,12 +100,12 @@ TEST(MetricMap, B9_aScanThatCannotBeInsertedIsRefusedAndNotThrown) {
   EXPECT_FALSE(
       map.insertObservation(*pointCloud(points, std::vector<float>(points.size(), 40.0f))));
   EXPECT_EQ(map.lastInsertion().outcome, LastInsertion::Outcome::Damaged);
-  EXPECT_THAT(map.lastInsertion().reason, ::testing::HasSubstr("free samples"));
+  EXPECT_THAT(map.lastInsertion().reason, testing::HasSubstr("free samples"));
   EXPECT_EQ(map.statistics().damaged.at("CObservationPointCloud"), 1u);
   EXPECT_TRUE(map.insertObservation(*pointCloud({{1, 0, 0}}, {40}))) << "the next one is";
 }
 
-TEST(MetricMap, refusesWhatItCannotUseWithoutThrowing) {
+TEST(MetricMap, RefusesWhatItCannotUseWithoutThrowing) {
   CSemanticContinuousMap map = sampleMap();
   EXPECT_FALSE(map.insertObservation(mrpt::obs::CObservationOdometry()));
   EXPECT_FALSE(map.insertObservation(mrpt::obs::CObservationPointCloud()));
@@ -126,7 +126,7 @@ TEST(MetricMap, refusesWhatItCannotUseWithoutThrowing) {
   EXPECT_EQ(statistics.without_points, 2u);
 }
 
-TEST(MetricMap, tellsWhatBecameOfTheLastObservation) {
+TEST(MetricMap, TellsWhatBecameOfTheLastObservation) {
   using Outcome = LastInsertion::Outcome;
   CSemanticContinuousMap map = sampleMap();
   map.warn_of_damaged = false;
@@ -151,10 +151,10 @@ TEST(MetricMap, tellsWhatBecameOfTheLastObservation) {
   EXPECT_EQ(map.lastInsertion().outcome, Outcome::Disabled);
 }
 
-TEST(MetricMap, equalsADirectLoopOverTheCore) {
+TEST(MetricMap, EqualsADirectLoopOverTheCore) {
   CSemanticContinuousMap map = sampleMap();
   SemanticMap direct(map.map().options());
-  const LabelSet labels = testing::sampleLabels();
+  const LabelSet labels = test::sampleLabels();
   const LabelRules rules(labels, PointLabels::ByIntensity, "", "");
   SelfLabelledAdapter adapter;
   for (int i = 0; i < 5; ++i) {
@@ -165,7 +165,7 @@ TEST(MetricMap, equalsADirectLoopOverTheCore) {
   EXPECT_EQ(mapDigest(map.map()), mapDigest(direct));
 }
 
-TEST(MetricMap, simpleMapGivesTheSameMap) {
+TEST(MetricMap, SimpleMapGivesTheSameMap) {
   CSemanticContinuousMap direct = sampleMap();
   mrpt::maps::CSimpleMap keyframes;
   for (int i = 0; i < 5; ++i) {
@@ -175,7 +175,7 @@ TEST(MetricMap, simpleMapGivesTheSameMap) {
     frame->insert(roomCloud());
     keyframes.insert(mrpt::poses::CPose3DPDFGaussian::Create(pose), frame);
   }
-  const std::string file = ::testing::TempDir() + "csom_metric_map_test.simplemap";
+  const std::string file = testing::TempDir() + "csom_metric_map_test.simplemap";
   ASSERT_TRUE(keyframes.saveToFile(file));
   mrpt::maps::CSimpleMap loaded;
   ASSERT_TRUE(loaded.loadFromFile(file));
@@ -187,7 +187,7 @@ TEST(MetricMap, simpleMapGivesTheSameMap) {
   EXPECT_EQ(mapDigest(map.map()), mapDigest(direct.map()));
 }
 
-TEST(MetricMap, clearEmptiesIt) {
+TEST(MetricMap, ClearEmptiesIt) {
   CSemanticContinuousMap map = roomMap();
   ASSERT_FALSE(map.isEmpty());
   map.clear();
@@ -197,7 +197,7 @@ TEST(MetricMap, clearEmptiesIt) {
   EXPECT_TRUE(map.insertObservation(*roomCloud()));
 }
 
-TEST(MetricMap, copiesAreIndependent) {
+TEST(MetricMap, CopiesAreIndependent) {
   CSemanticContinuousMap map = roomMap();
   const std::string before = mapDigest(map.map());
   const CSemanticContinuousMap copy = map;
@@ -210,7 +210,7 @@ TEST(MetricMap, copiesAreIndependent) {
   EXPECT_EQ(map.getAsSimplePointsMap()->size(), copy.getAsSimplePointsMap()->size());
 }
 
-TEST(MetricMap, documentRoundTrip) {
+TEST(MetricMap, DocumentRoundTrip) {
   const CSemanticContinuousMap map = roomMap();
   CSemanticContinuousMap other;
   other.setDocument(map.document());
@@ -242,9 +242,9 @@ TEST(MetricMap, documentRoundTrip) {
   EXPECT_THROW(other.setDocument(inconsistent), std::invalid_argument);
 }
 
-TEST(MetricMap, savesAMapFile) {
+TEST(MetricMap, SavesAMapFile) {
   const CSemanticContinuousMap map = roomMap();
-  const std::string prefix = ::testing::TempDir() + "csom_metric_map_test_saved";
+  const std::string prefix = testing::TempDir() + "csom_metric_map_test_saved";
   map.saveMetricMapRepresentationToFile(prefix);
   const MapDocument loaded = loadMap(prefix + ".csom");
   EXPECT_EQ(mapDigest(loaded.map), mapDigest(map.map()));
@@ -255,7 +255,7 @@ TEST(MetricMap, savesAMapFile) {
 CMultiMetricMap multiMap() {
   mrpt::maps::TSetOfMetricMapInitializers definitions;
   CSemanticContinuousMap::TMapDefinition definition;
-  definition.labels = testing::sampleLabels();
+  definition.labels = test::sampleLabels();
   definition.insertionOpts.point_labels = PointLabels::ByIntensity;
   definitions.push_back(definition);
   CMultiMetricMap maps;
@@ -263,7 +263,7 @@ CMultiMetricMap multiMap() {
   return maps;
 }
 
-TEST(MetricMap, worksInsideAMultiMetricMap) {
+TEST(MetricMap, WorksInsideAMultiMetricMap) {
   CMultiMetricMap maps = multiMap();
   ASSERT_TRUE(maps.insertObservation(*roomCloud()));
   const std::string digest = mapDigest(maps.mapByClass<CSemanticContinuousMap>()->map());
@@ -278,7 +278,7 @@ TEST(MetricMap, worksInsideAMultiMetricMap) {
   EXPECT_TRUE(maps.insertObservation(*roomCloud()));
 }
 
-TEST(MetricMap, genericParametersGateInsertionAndLikelihood) {
+TEST(MetricMap, GenericParametersGateInsertionAndLikelihood) {
   CSemanticContinuousMap map = roomMap();
   map.genericMapParams.enableObservationInsertion = false;
   EXPECT_FALSE(map.insertObservation(*roomCloud()));
@@ -300,7 +300,7 @@ class Listener : public mrpt::system::CObserver {
   }
 };
 
-TEST(MetricMap, publishesEvents) {
+TEST(MetricMap, PublishesEvents) {
   CSemanticContinuousMap map = sampleMap();
   Listener listener;
   listener.observeBegin(map);
@@ -316,7 +316,7 @@ TEST(MetricMap, publishesEvents) {
   EXPECT_EQ(listener.insertions, 1) << "a copy has no observers";
 }
 
-TEST(MetricMap, raycastingFreesWhatTheBeamsCross) {
+TEST(MetricMap, RaycastingFreesWhatTheBeamsCross) {
   Options options;
   options.free_space.mode = FreeSpace::Raycast;
   CSemanticContinuousMap map(options);
@@ -331,7 +331,7 @@ const mrpt::opengl::COctoMapVoxels* voxelsOf(const mrpt::opengl::CSetOfObjects& 
                        : dynamic_cast<const mrpt::opengl::COctoMapVoxels*>(scene.begin()->get());
 }
 
-TEST(MetricMap, showsVoxelsInTheColoursOfTheirClasses) {
+TEST(MetricMap, ShowsVoxelsInTheColoursOfTheirClasses) {
   CSemanticContinuousMap map = roomMap();
   mrpt::opengl::CSetOfObjects scene;
   map.getVisualizationInto(scene);
@@ -347,12 +347,12 @@ TEST(MetricMap, showsVoxelsInTheColoursOfTheirClasses) {
   EXPECT_TRUE(hidden.empty());
 }
 
-TEST(MetricMap, describesItself) {
+TEST(MetricMap, DescribesItself) {
   const std::string text = roomMap().asString();
-  EXPECT_THAT(text, ::testing::HasSubstr("4 classes (sample), 1 observations"));
+  EXPECT_THAT(text, testing::HasSubstr("4 classes (sample), 1 observations"));
 }
 
-TEST(MetricMap, pointsMapFollowsTheMap) {
+TEST(MetricMap, PointsMapFollowsTheMap) {
   CSemanticContinuousMap map = sampleMap();
   map.insertObservation(*pointCloud({{1, 0, 0}}, {40}));
   const std::size_t before = map.getAsSimplePointsMap()->size();

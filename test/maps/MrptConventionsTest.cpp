@@ -36,7 +36,7 @@ mrpt::obs::CObservation2DRangeScan stockScan(int which = 0) {
 }
 
 template <class Map>
-class MrptConventions : public ::testing::Test {
+class MrptConventions : public testing::Test {
  protected:
   static Map filledMap() {
     Map map;
@@ -53,10 +53,10 @@ class MrptConventions : public ::testing::Test {
   }
 };
 
-using Maps = ::testing::Types<CSemanticContinuousMap, CSemanticPointsMap>;
+using Maps = testing::Types<CSemanticContinuousMap, CSemanticPointsMap>;
 TYPED_TEST_SUITE(MrptConventions, Maps);
 
-TYPED_TEST(MrptConventions, hasTheTraitsOfAMap) {
+TYPED_TEST(MrptConventions, HasTheTraitsOfAMap) {
   EXPECT_TRUE(std::is_default_constructible_v<TypeParam>);
   EXPECT_TRUE(std::is_copy_constructible_v<TypeParam>);
   EXPECT_TRUE(std::is_copy_assignable_v<TypeParam>);
@@ -65,7 +65,7 @@ TYPED_TEST(MrptConventions, hasTheTraitsOfAMap) {
   EXPECT_TRUE((std::is_base_of_v<mrpt::maps::CMetricMap, TypeParam>));
 }
 
-TYPED_TEST(MrptConventions, isKnownByItsClassName) {
+TYPED_TEST(MrptConventions, IsKnownByItsClassName) {
   const TypeParam map;
   const std::string name = map.GetRuntimeClass()->className;
   const mrpt::rtti::CObject::Ptr object = mrpt::rtti::classFactory(name);
@@ -74,14 +74,14 @@ TYPED_TEST(MrptConventions, isKnownByItsClassName) {
   EXPECT_TRUE(map.GetRuntimeClass()->derivedFrom(CLASS_ID(mrpt::maps::CMetricMap)));
 }
 
-TYPED_TEST(MrptConventions, isDuplicatedAsAnObject) {
+TYPED_TEST(MrptConventions, IsDuplicatedAsAnObject) {
   const TypeParam map = TestFixture::filledMap();
   const auto copy = std::dynamic_pointer_cast<TypeParam>(map.duplicateGetSmartPtr());
   ASSERT_NE(copy, nullptr);
   EXPECT_EQ(mapDigest(voxelsOf(*copy)), mapDigest(voxelsOf(map)));
 }
 
-TYPED_TEST(MrptConventions, goesThroughAStream) {
+TYPED_TEST(MrptConventions, GoesThroughAStream) {
   const TypeParam map = TestFixture::filledMap();
   mrpt::io::CMemoryStream stream;
   auto archive = mrpt::serialization::archiveFrom(stream);
@@ -99,7 +99,7 @@ TYPED_TEST(MrptConventions, goesThroughAStream) {
   EXPECT_EQ(mapDigest(voxelsOf(*made)), mapDigest(voxelsOf(map)));
 }
 
-TYPED_TEST(MrptConventions, aSetOfMapsIsCopiedAndMovedWithIt) {
+TYPED_TEST(MrptConventions, ASetOfMapsIsCopiedAndMovedWithIt) {
   CMultiMetricMap maps = TestFixture::filledSet();
   const std::string digest = mapDigest(voxelsOf(*maps.mapByClass<TypeParam>()));
   CMultiMetricMap copy(maps);
@@ -117,7 +117,7 @@ TYPED_TEST(MrptConventions, aSetOfMapsIsCopiedAndMovedWithIt) {
   EXPECT_EQ(mapDigest(voxelsOf(*move_assigned.mapByClass<TypeParam>())), digest);
 }
 
-TYPED_TEST(MrptConventions, genericParametersDecideWhatIsInsertedAndAsked) {
+TYPED_TEST(MrptConventions, GenericParametersDecideWhatIsInsertedAndAsked) {
   TypeParam map = TestFixture::filledMap();
   const std::string digest = mapDigest(voxelsOf(map));
   map.genericMapParams.enableObservationInsertion = false;
@@ -130,7 +130,7 @@ TYPED_TEST(MrptConventions, genericParametersDecideWhatIsInsertedAndAsked) {
   EXPECT_EQ(map.computeObservationLikelihood(stockScan(1), CPose3D(1, 1, 0, 0, 0, 0)), 0);
 }
 
-TYPED_TEST(MrptConventions, tellsOfInsertionsAndOfBeingCleared) {
+TYPED_TEST(MrptConventions, TellsOfInsertionsAndOfBeingCleared) {
   struct Listener : public mrpt::system::CObserver {
     int insertions = 0;
     int clears = 0;
@@ -149,7 +149,7 @@ TYPED_TEST(MrptConventions, tellsOfInsertionsAndOfBeingCleared) {
   EXPECT_EQ(listener.clears, 1);
 }
 
-TYPED_TEST(MrptConventions, aSimpleMapFillsIt) {
+TYPED_TEST(MrptConventions, ASimpleMapFillsIt) {
   mrpt::maps::CSimpleMap frames;
   for (int i = 0; i < 2; ++i) {
     auto frame = mrpt::obs::CSensoryFrame::Create();
@@ -165,7 +165,7 @@ TYPED_TEST(MrptConventions, aSimpleMapFillsIt) {
 }
 
 /// As COctoMap's and COccupancyGridMap3D's own tests: a scan leaves something where it hit.
-TYPED_TEST(MrptConventions, laserScansAreWhereTheyHit) {
+TYPED_TEST(MrptConventions, LaserScansAreWhereTheyHit) {
   TypeParam map;
   EXPECT_TRUE(map.isEmpty());
   const auto scan = stockScan();

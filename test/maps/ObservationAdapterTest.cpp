@@ -18,12 +18,12 @@ namespace {
 
 using mrpt::obs::CObservation3DRangeScan;
 using mrpt::poses::CPose3D;
-using testing::laserScan;
-using testing::pointCloud;
-using testing::rangeCamera;
-using testing::sampleLabels;
+using test::laserScan;
+using test::pointCloud;
+using test::rangeCamera;
+using test::sampleLabels;
 
-class ObservationAdapter : public ::testing::Test {
+class ObservationAdapter : public testing::Test {
  protected:
   LabelRules rules(PointLabels source, const std::string& unlabelled = "drop",
                    const std::string& scan_2d = "") const {
@@ -61,19 +61,19 @@ mrpt::obs::CObservation::Ptr firstOf(const std::string& rawlog) {
   return log.getAsObservation(0);
 }
 
-TEST_F(ObservationAdapter, otherKindsAreNotTaken) {
+TEST_F(ObservationAdapter, OtherKindsAreNotTaken) {
   EXPECT_FALSE(adapter_.adapt(mrpt::obs::CObservationOdometry(), Eigen::Isometry3d::Identity(),
                               rules(PointLabels::None)));
 }
 
-TEST_F(ObservationAdapter, scansTellWhereTheyComeFrom) {
+TEST_F(ObservationAdapter, ScansTellWhereTheyComeFrom) {
   const AdaptedScan scan = adapt(*pointCloud({{1, 0, 0}}, {40}), rules(PointLabels::ByIntensity));
   EXPECT_EQ(scan.sensor_label, "cloud");
   EXPECT_EQ(scan.observation_class, "CObservationPointCloud");
   EXPECT_DOUBLE_EQ(scan.timestamp, 1500000000.25);
 }
 
-TEST_F(ObservationAdapter, pointsAreRelativeToTheSensorInTheAxesOfTheMap) {
+TEST_F(ObservationAdapter, PointsAreRelativeToTheSensorInTheAxesOfTheMap) {
   auto observation = pointCloud({{2, 0, 0}}, {40});
   observation->sensorPose = CPose3D(0.5, 0, 1, 0, 0, 0);
   const CPose3D robot(100000, 200000, 0, M_PI / 2, 0, 0);
@@ -82,28 +82,28 @@ TEST_F(ObservationAdapter, pointsAreRelativeToTheSensorInTheAxesOfTheMap) {
   expectNear(scan.scan.points.at(0), {0, 2, 0});
 }
 
-TEST_F(ObservationAdapter, labelsOfPointsAreCountedByFate) {
+TEST_F(ObservationAdapter, LabelsOfPointsAreCountedByFate) {
   const auto observation =
       pointCloud({{1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}}, {40, 50, 0, 77});
   const AdaptedScan scan = adapt(*observation, rules(PointLabels::ByIntensity));
-  EXPECT_THAT(scan.scan.labels, ::testing::ElementsAre(1, 2));
+  EXPECT_THAT(scan.scan.labels, testing::ElementsAre(1, 2));
   EXPECT_EQ(scan.labels.labelled, 2u);
   EXPECT_EQ(scan.labels.ignored, 1u);
   EXPECT_EQ(scan.labels.unknown, 1u);
   EXPECT_EQ(scan.labels.dropped(), 2u);
 }
 
-TEST_F(ObservationAdapter, pointsWithoutLabelFollowTheRule) {
+TEST_F(ObservationAdapter, PointsWithoutLabelFollowTheRule) {
   const auto observation = pointCloud({{1, 0, 0}, {2, 0, 0}}, {40, 50});
   const AdaptedScan kept = adapt(*observation, rules(PointLabels::None, "wall"));
-  EXPECT_THAT(kept.scan.labels, ::testing::ElementsAre(2, 2));
+  EXPECT_THAT(kept.scan.labels, testing::ElementsAre(2, 2));
   EXPECT_EQ(kept.labels.unlabelled, 2u);
   const AdaptedScan dropped = adapt(*observation, rules(PointLabels::None));
   EXPECT_TRUE(dropped.scan.points.empty());
   EXPECT_EQ(dropped.labels.missing, 2u);
 }
 
-TEST_F(ObservationAdapter, colouredCloud) {
+TEST_F(ObservationAdapter, ColouredCloud) {
   auto cloud = mrpt::maps::CColouredPointsMap::Create();
   cloud->insertPointRGB(1, 0, 0, 128 / 255.f, 64 / 255.f, 128 / 255.f);
   cloud->insertPointRGB(2, 0, 0, 0, 200 / 255.f, 0);
@@ -111,11 +111,11 @@ TEST_F(ObservationAdapter, colouredCloud) {
   mrpt::obs::CObservationPointCloud observation;
   observation.pointcloud = cloud;
   const AdaptedScan scan = adapt(observation, rules(PointLabels::ByColor));
-  EXPECT_THAT(scan.scan.labels, ::testing::ElementsAre(1, 2));
+  EXPECT_THAT(scan.scan.labels, testing::ElementsAre(1, 2));
   EXPECT_EQ(scan.labels.unknown, 1u);
 }
 
-TEST_F(ObservationAdapter, cloudOfUnequalNumbersIsDamaged) {
+TEST_F(ObservationAdapter, CloudOfUnequalNumbersIsDamaged) {
   auto cloud = mrpt::maps::CPointsMapXYZI::Create();
   cloud->resize(2);
   const auto& intensities = cloud->getPointsBufferRef_intensity();
@@ -125,32 +125,32 @@ TEST_F(ObservationAdapter, cloudOfUnequalNumbersIsDamaged) {
   EXPECT_THROW(adapt(observation, rules(PointLabels::ByIntensity)), std::runtime_error);
 }
 
-TEST_F(ObservationAdapter, cloudWithoutCloudIsDamaged) {
+TEST_F(ObservationAdapter, CloudWithoutCloudIsDamaged) {
   EXPECT_THROW(adapt(mrpt::obs::CObservationPointCloud(), rules(PointLabels::None)),
                std::runtime_error);
 }
 
-TEST_F(ObservationAdapter, externallyStoredCloudIsLoaded) {
-  const std::string file = ::testing::TempDir() + "csom_external_cloud.bin";
+TEST_F(ObservationAdapter, ExternallyStoredCloudIsLoaded) {
+  const std::string file = testing::TempDir() + "csom_external_cloud.bin";
   std::ofstream(file, std::ios::binary)
       .write("\0\0\x80\x3f\0\0\0\0\0\0\0\0\0\0\x20\x42", 16);  // 1 0 0, intensity 40
   mrpt::obs::CObservationPointCloud observation;
   observation.setAsExternalStorage(
       file, mrpt::obs::CObservationPointCloud::ExternalStorageFormat::KittiBinFile);
   const AdaptedScan scan = adapt(observation, rules(PointLabels::ByIntensity));
-  EXPECT_THAT(scan.scan.labels, ::testing::ElementsAre(1));
+  EXPECT_THAT(scan.scan.labels, testing::ElementsAre(1));
   expectNear(scan.scan.points.at(0), {1, 0, 0});
 }
 
-TEST_F(ObservationAdapter, velodyneCloudWithoutPacketsIsUsedAsItIs) {
+TEST_F(ObservationAdapter, VelodyneCloudWithoutPacketsIsUsedAsItIs) {
   const AdaptedScan scan = adapt(*velodyneCloud(), rules(PointLabels::ByIntensity));
-  EXPECT_THAT(scan.scan.labels, ::testing::ElementsAre(1, 2));
+  EXPECT_THAT(scan.scan.labels, testing::ElementsAre(1, 2));
   expectNear(scan.scan.points.at(1), {2, 0, 0});
   EXPECT_EQ(scan.labels.ignored, 1u);
   EXPECT_EQ(scan.labels.unknown, 1u);
 }
 
-TEST_F(ObservationAdapter, velodynePacketsAreDecoded) {
+TEST_F(ObservationAdapter, VelodynePacketsAreDecoded) {
   const auto observation = firstOf("test_velodyne_VLP16.rawlog");
   const auto& recorded = dynamic_cast<const mrpt::obs::CObservationVelodyneScan&>(*observation);
   ASSERT_TRUE(recorded.point_cloud.x.empty());
@@ -166,7 +166,7 @@ TEST_F(ObservationAdapter, velodynePacketsAreDecoded) {
   }
 }
 
-TEST_F(ObservationAdapter, damagedVelodyneScansAreErrors) {
+TEST_F(ObservationAdapter, DamagedVelodyneScansAreErrors) {
   auto uneven = velodyneCloud();
   uneven->point_cloud.intensity.pop_back();
   EXPECT_THROW(adapt(*uneven, rules(PointLabels::None)), std::exception);
@@ -177,7 +177,7 @@ TEST_F(ObservationAdapter, damagedVelodyneScansAreErrors) {
   EXPECT_THROW(adapt(uncalibrated, rules(PointLabels::None)), std::exception);
 }
 
-TEST_F(ObservationAdapter, rangeImageIsUnprojected) {
+TEST_F(ObservationAdapter, RangeImageIsUnprojected) {
   auto observation = rangeCamera();
   observation->rangeImage(0, 0) = 0;  // no return
   const AdaptedScan scan = adapt(*observation, rules(PointLabels::None, "wall"));
@@ -193,7 +193,7 @@ std::shared_ptr<mrpt::obs::TPixelLabelInfo<Bytes>> pixelLabels(int rows, int col
   return info;
 }
 
-TEST_F(ObservationAdapter, labelsOfPixelsGoWithTheirPoints) {
+TEST_F(ObservationAdapter, LabelsOfPixelsGoWithTheirPoints) {
   auto observation = rangeCamera();
   observation->rangeImage(0, 0) = 0;  // so that points and pixels are not numbered alike
   auto info = pixelLabels<8>(6, 8);
@@ -205,7 +205,7 @@ TEST_F(ObservationAdapter, labelsOfPixelsGoWithTheirPoints) {
   info->setLabel(0, 5, 50);
   observation->pixelLabels = info;
   const AdaptedScan scan = adapt(*observation, rules(PointLabels::None));
-  EXPECT_THAT(scan.scan.labels, ::testing::ElementsAre(1, 2));
+  EXPECT_THAT(scan.scan.labels, testing::ElementsAre(1, 2));
   expectNear(scan.scan.points.at(0), {2.0f, 0.625f, 0.625f});
   EXPECT_EQ(scan.labels.ignored, 1u);
   EXPECT_EQ(scan.labels.unknown, 1u);
@@ -213,7 +213,7 @@ TEST_F(ObservationAdapter, labelsOfPixelsGoWithTheirPoints) {
   EXPECT_EQ(scan.labels.missing, 42u);
 }
 
-TEST_F(ObservationAdapter, namedBitsOfAllWidths) {
+TEST_F(ObservationAdapter, NamedBitsOfAllWidths) {
   const auto check = [&](auto info) {
     auto observation = rangeCamera();
     info->setLabel(2, 3, 5);
@@ -222,7 +222,7 @@ TEST_F(ObservationAdapter, namedBitsOfAllWidths) {
     info->setLabelName(6, "lawn");
     observation->pixelLabels = info;
     const AdaptedScan scan = adapt(*observation, rules(PointLabels::None));
-    EXPECT_THAT(scan.scan.labels, ::testing::ElementsAre(2));
+    EXPECT_THAT(scan.scan.labels, testing::ElementsAre(2));
     EXPECT_EQ(scan.labels.unknown, 1u);
   };
   check(pixelLabels<1>(6, 8));
@@ -231,7 +231,7 @@ TEST_F(ObservationAdapter, namedBitsOfAllWidths) {
   check(pixelLabels<8>(6, 8));
 }
 
-TEST_F(ObservationAdapter, rangeCameraWithPointsOnly) {
+TEST_F(ObservationAdapter, RangeCameraWithPointsOnly) {
   CObservation3DRangeScan observation;
   observation.hasPoints3D = true;
   observation.points3D_x = {1, 2};
@@ -240,7 +240,7 @@ TEST_F(ObservationAdapter, rangeCameraWithPointsOnly) {
   EXPECT_EQ(adapt(observation, rules(PointLabels::None, "wall")).scan.points.size(), 2u);
 }
 
-TEST_F(ObservationAdapter, damagedRangeCamerasAreErrors) {
+TEST_F(ObservationAdapter, DamagedRangeCamerasAreErrors) {
   auto wrong_labels = rangeCamera();
   wrong_labels->pixelLabels = pixelLabels<1>(5, 8);
   EXPECT_THROW(adapt(*wrong_labels, rules(PointLabels::None)), std::runtime_error);
@@ -254,12 +254,12 @@ TEST_F(ObservationAdapter, damagedRangeCamerasAreErrors) {
   EXPECT_THROW(adapt(empty, rules(PointLabels::None)), std::runtime_error);
 }
 
-TEST_F(ObservationAdapter, laserScanHasOneClassAndOnlyValidRays) {
+TEST_F(ObservationAdapter, LaserScanHasOneClassAndOnlyValidRays) {
   auto observation = laserScan(5);
   observation->setScanRangeValidity(1, false);
   observation->setScanRange(2, 20.0f);  // maxRange: nothing was hit
   const AdaptedScan scan = adapt(*observation, rules(PointLabels::ByIntensity, "drop", "wall"));
-  EXPECT_THAT(scan.scan.labels, ::testing::ElementsAre(2, 2, 2));
+  EXPECT_THAT(scan.scan.labels, testing::ElementsAre(2, 2, 2));
   expectNear(scan.scan.points[0], {0, -5, 0});
   expectNear(scan.scan.points[2], {0, 5, 0});
 
@@ -268,7 +268,7 @@ TEST_F(ObservationAdapter, laserScanHasOneClassAndOnlyValidRays) {
   EXPECT_EQ(adapt(*observation, rules(PointLabels::None)).labels.missing, 3u);
 }
 
-TEST_F(ObservationAdapter, emptyObservationsHaveNoPoints) {
+TEST_F(ObservationAdapter, EmptyObservationsHaveNoPoints) {
   EXPECT_TRUE(adapt(*laserScan(0), rules(PointLabels::None, "wall")).scan.points.empty());
   EXPECT_TRUE(adapt(*pointCloud({}, {}), rules(PointLabels::None, "wall")).scan.points.empty());
   EXPECT_TRUE(adapt(mrpt::obs::CObservationVelodyneScan(), rules(PointLabels::None, "wall"))
@@ -288,7 +288,7 @@ double typicalDistance(const Scan& scan, const Scan& others) {
   return distances[distances.size() * 95 / 100];
 }
 
-TEST_F(ObservationAdapter, rotatingScanEqualsTheVelodyneScanItWasMadeOf) {
+TEST_F(ObservationAdapter, RotatingScanEqualsTheVelodyneScanItWasMadeOf) {
   const AdaptedScan rotating =
       adapt(*firstOf("rot_scan_velodyne.rawlog"), rules(PointLabels::None, "wall"));
   const AdaptedScan velodyne =
@@ -297,7 +297,7 @@ TEST_F(ObservationAdapter, rotatingScanEqualsTheVelodyneScanItWasMadeOf) {
   EXPECT_LT(typicalDistance(rotating.scan, velodyne.scan), 0.1);
 }
 
-TEST_F(ObservationAdapter, rotatingScanWithLabels) {
+TEST_F(ObservationAdapter, RotatingScanWithLabels) {
   mrpt::obs::CObservationRotatingScan observation;
   observation.rowCount = 1;
   observation.columnCount = 3;
@@ -311,7 +311,7 @@ TEST_F(ObservationAdapter, rotatingScanWithLabels) {
   observation.intensityImage(0, 0) = 40;
   observation.intensityImage(0, 2) = 50;
   const AdaptedScan scan = adapt(observation, rules(PointLabels::ByIntensity));
-  EXPECT_THAT(scan.scan.labels, ::testing::ElementsAre(1, 2));
+  EXPECT_THAT(scan.scan.labels, testing::ElementsAre(1, 2));
   expectNear(scan.scan.points.at(0), {1, 0, 0});
   expectNear(scan.scan.points.at(1), {-2, 0, 0});
 
@@ -319,7 +319,7 @@ TEST_F(ObservationAdapter, rotatingScanWithLabels) {
   EXPECT_THROW(adapt(observation, rules(PointLabels::ByIntensity)), std::runtime_error);
 }
 
-TEST_F(ObservationAdapter, rotatingScanOfUnknownGeometryIsAnError) {
+TEST_F(ObservationAdapter, RotatingScanOfUnknownGeometryIsAnError) {
   mrpt::obs::CObservationRotatingScan observation;
   observation.lidarModel = "OS1";
   observation.rowCount = 4;
@@ -330,13 +330,13 @@ TEST_F(ObservationAdapter, rotatingScanOfUnknownGeometryIsAnError) {
     adapt(observation, rules(PointLabels::None));
     FAIL() << "accepted";
   } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("'OS1' with 4 rows"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("'OS1' with 4 rows"));
   }
   observation.columnCount = 5;
   EXPECT_THROW(adapt(observation, rules(PointLabels::None)), std::runtime_error);
 }
 
-TEST_F(ObservationAdapter, nonFinitePointsReachTheMapToBeCounted) {
+TEST_F(ObservationAdapter, NonFinitePointsReachTheMapToBeCounted) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const AdaptedScan scan =
       adapt(*pointCloud({{nan, 0, 0}, {1, 0, 0}}, {40, 40}), rules(PointLabels::ByIntensity));

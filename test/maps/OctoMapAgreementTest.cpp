@@ -22,7 +22,7 @@ using mrpt::poses::CPose3D;
 constexpr double kResolution = 0.1;
 
 /// Both maps, filled with the same observations.
-class OctoMapAgreement : public ::testing::Test {
+class OctoMapAgreement : public testing::Test {
  protected:
   OctoMapAgreement() : octo_(kResolution), semantic_(options()) {}
 
@@ -40,7 +40,7 @@ class OctoMapAgreement : public ::testing::Test {
 
   /// The walls of a room of 6 x 4 x 2 m, seen by a camera at its middle.
   void insertRoom() {
-    const auto scan = testing::velodyneRoom();
+    const auto scan = test::velodyneRoom();
     insert(*scan, CPose3D(0.013, -0.017, 0.019, 0.3, 0, 0));
   }
 
@@ -67,7 +67,7 @@ class OctoMapAgreement : public ::testing::Test {
 
 /// A COctoMap of MRPT 2.5.8 that holds nothing does not say so; what it says with something in it
 /// is right.
-TEST_F(OctoMapAgreement, onNotBeingEmpty) {
+TEST_F(OctoMapAgreement, OnNotBeingEmpty) {
   EXPECT_TRUE(semantic_.isEmpty());
   insert(stockScan());
   EXPECT_FALSE(octo_.isEmpty());
@@ -76,7 +76,7 @@ TEST_F(OctoMapAgreement, onNotBeingEmpty) {
   EXPECT_TRUE(semantic_.isEmpty());
 }
 
-TEST_F(OctoMapAgreement, onWhatIsOccupiedAndFree) {
+TEST_F(OctoMapAgreement, OnWhatIsOccupiedAndFree) {
   insert(stockScan());
   std::size_t occupied = 0;
   std::size_t free_count = 0;
@@ -93,7 +93,7 @@ TEST_F(OctoMapAgreement, onWhatIsOccupiedAndFree) {
   EXPECT_LE(disagreements, (occupied + free_count) / 20);
 }
 
-TEST_F(OctoMapAgreement, onTheBoundingBox) {
+TEST_F(OctoMapAgreement, OnTheBoundingBox) {
   insertRoom();
   const auto ours = semantic_.boundingBox();
   std::array<double, 3> min{};
@@ -107,7 +107,7 @@ TEST_F(OctoMapAgreement, onTheBoundingBox) {
   }
 }
 
-TEST_F(OctoMapAgreement, onWhereRaysEnd) {
+TEST_F(OctoMapAgreement, OnWhereRaysEnd) {
   insertRoom();
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> angle(-M_PI, M_PI);
@@ -144,7 +144,7 @@ TEST_F(OctoMapAgreement, onWhereRaysEnd) {
 
 /// Poses that differ clearly are in the same order for both. What is unknown to it does not count
 /// for COctoMap: rays are left out that end in unknown space from any of the poses.
-TEST_F(OctoMapAgreement, onWhichPoseFitsBetter) {
+TEST_F(OctoMapAgreement, OnWhichPoseFitsBetter) {
   insert(stockScan());
   auto scan = stockScan();  // MRPT remembers the points of a scan that has been inserted
   std::vector<CPose3D> poses;

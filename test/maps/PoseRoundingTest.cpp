@@ -55,7 +55,7 @@ class RandomPoses {
   std::uniform_real_distribution<double> pitch_{-1.5, 1.5};
 };
 
-TEST(PoseRounding, copiesOfAPoseHaveTheSameBits) {
+TEST(PoseRounding, CopiesOfAPoseHaveTheSameBits) {
   RandomPoses poses;
   for (int i = 0; i < 10000; ++i) {
     const CPose3D pose = poses.next();
@@ -66,7 +66,7 @@ TEST(PoseRounding, copiesOfAPoseHaveTheSameBits) {
   }
 }
 
-TEST(PoseRounding, halfTurnsHaveTheSameBitsToo) {
+TEST(PoseRounding, HalfTurnsHaveTheSameBitsToo) {
   // w is 0 up to the last bits, and its sign is noise.
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
@@ -86,7 +86,7 @@ TEST(PoseRounding, halfTurnsHaveTheSameBitsToo) {
   }
 }
 
-TEST(PoseRounding, staysCloseToThePose) {
+TEST(PoseRounding, StaysCloseToThePose) {
   RandomPoses poses;
   for (int i = 0; i < 1000; ++i) {
     const CPose3D pose = poses.next();
@@ -101,11 +101,11 @@ TEST(PoseRounding, staysCloseToThePose) {
   }
 }
 
-TEST(PoseRounding, identityStaysExact) {
+TEST(PoseRounding, IdentityStaysExact) {
   EXPECT_TRUE(sameBits(csom::roundedPose(CPose3D()), Eigen::Isometry3d::Identity()));
 }
 
-TEST(PoseRounding, rejectsWhatIsNotFinite) {
+TEST(PoseRounding, RejectsWhatIsNotFinite) {
   CPose3D pose;
   pose.x(std::numeric_limits<double>::quiet_NaN());
   EXPECT_THROW(csom::roundedPose(pose), std::runtime_error);
@@ -113,7 +113,7 @@ TEST(PoseRounding, rejectsWhatIsNotFinite) {
   EXPECT_THROW(csom::roundedPose(pose), std::runtime_error);
 }
 
-TEST(PoseRounding, composesRobotAndSensor) {
+TEST(PoseRounding, ComposesRobotAndSensor) {
   const CPose3D robot(1, 2, 3, M_PI / 2, 0, 0);
   const CPose3D sensor(0.5, 0, 1, 0, 0.1, -0.2);
   const Eigen::Isometry3d pose = csom::sensorPoseInMap(csom::roundedPose(robot), sensor);

@@ -16,7 +16,7 @@ using mrpt::img::TColor;
 using mrpt::opengl::COctoMapVoxels;
 using mrpt::opengl::VOXEL_SET_FREESPACE;
 using mrpt::opengl::VOXEL_SET_OCCUPIED;
-using testing::pointCloud;
+using test::pointCloud;
 
 constexpr unsigned kUnknown = 2;
 
@@ -26,8 +26,8 @@ CSemanticContinuousMap blockMap(int edge, FreeSpace free_space = FreeSpace::None
   options.method = Method::SCsm;
   options.resolution = 0.1;
   options.free_space.mode = free_space;
-  options.number_of_classes = testing::sampleLabels().numberOfClasses();
-  CSemanticContinuousMap map(options, testing::sampleLabels());
+  options.number_of_classes = test::sampleLabels().numberOfClasses();
+  CSemanticContinuousMap map(options, test::sampleLabels());
   map.insertionOptions.point_labels = PointLabels::ByIntensity;
   std::vector<Eigen::Vector3f> points;
   std::vector<float> labels;
@@ -50,7 +50,7 @@ COctoMapVoxels::Ptr voxelsOf(const CSemanticContinuousMap& map) {
   return scene.empty() ? nullptr : scene.getByClass<COctoMapVoxels>();
 }
 
-TEST(Rendering, voxelsThatOthersHideAreLeftOut) {
+TEST(Rendering, VoxelsThatOthersHideAreLeftOut) {
   CSemanticContinuousMap map = blockMap(5);
   EXPECT_EQ(voxelsOf(map)->getVoxelCount(VOXEL_SET_OCCUPIED), 5u * 5 * 5 - 3 * 3 * 3);
   map.renderingOptions.visible_only = false;
@@ -59,14 +59,14 @@ TEST(Rendering, voxelsThatOthersHideAreLeftOut) {
   EXPECT_EQ(voxelsOf(map)->getVoxelCount(VOXEL_SET_OCCUPIED), 0u);
 }
 
-TEST(Rendering, coloursSayTheClass) {
+TEST(Rendering, ColoursSayTheClass) {
   const auto voxels = voxelsOf(blockMap(2));
   for (std::size_t i = 0; i < voxels->getVoxelCount(VOXEL_SET_OCCUPIED); ++i)
     EXPECT_EQ(voxels->getVoxel(VOXEL_SET_OCCUPIED, i).color, TColor(0, 200, 0));
 }
 
 /// Colours go from blue to red.
-TEST(Rendering, coloursSayTheHeight) {
+TEST(Rendering, ColoursSayTheHeight) {
   CSemanticContinuousMap map = blockMap(4);
   map.renderingOptions.color_by = VoxelColor::Height;
   const auto voxels = voxelsOf(map);
@@ -82,7 +82,7 @@ TEST(Rendering, coloursSayTheHeight) {
   }
 }
 
-TEST(Rendering, coloursSayTheProbability) {
+TEST(Rendering, ColoursSayTheProbability) {
   CSemanticContinuousMap map = blockMap(1);
   map.renderingOptions.color_by = VoxelColor::Probability;
   const TColor sure = voxelsOf(map)->getVoxel(VOXEL_SET_OCCUPIED, 0).color;
@@ -92,7 +92,7 @@ TEST(Rendering, coloursSayTheProbability) {
   EXPECT_GT(unsure.G, sure.G) << "two thirds: yellow";
 }
 
-TEST(Rendering, freeAndUnknownVoxelsOnDemand) {
+TEST(Rendering, FreeAndUnknownVoxelsOnDemand) {
   CSemanticContinuousMap map = blockMap(1, FreeSpace::Raycast);
   EXPECT_EQ(voxelsOf(map)->getVoxelCount(VOXEL_SET_FREESPACE), 0u);
   EXPECT_EQ(voxelsOf(map)->getVoxelCount(kUnknown), 0u);
@@ -120,7 +120,7 @@ TEST(Rendering, freeAndUnknownVoxelsOnDemand) {
   }
 }
 
-TEST(Rendering, theBoxHoldsAllThatIsShown) {
+TEST(Rendering, TheBoxHoldsAllThatIsShown) {
   CSemanticContinuousMap map = blockMap(1, FreeSpace::Raycast);
   map.renderingOptions.unknown_voxels = true;
   const auto voxels = voxelsOf(map);
@@ -132,7 +132,7 @@ TEST(Rendering, theBoxHoldsAllThatIsShown) {
   }
 }
 
-TEST(Rendering, aSavedSceneIsReadBack) {
+TEST(Rendering, ASavedSceneIsReadBack) {
   mrpt::opengl::COpenGLScene scene;
   auto objects = mrpt::opengl::CSetOfObjects::Create();
   blockMap(3).getVisualizationInto(*objects);
@@ -148,7 +148,7 @@ TEST(Rendering, aSavedSceneIsReadBack) {
   EXPECT_EQ(voxels->getVoxelCount(VOXEL_SET_OCCUPIED), 26u);
 }
 
-TEST(Rendering, wordsOfColours) {
+TEST(Rendering, WordsOfColours) {
   VoxelColor color = VoxelColor::Class;
   parse("color_by", "height", color);
   EXPECT_EQ(color, VoxelColor::Height);
@@ -156,8 +156,8 @@ TEST(Rendering, wordsOfColours) {
     parse("color_by", "depth", color);
     FAIL();
   } catch (const OptionError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("color_by"));
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("probability"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("color_by"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("probability"));
   }
 }
 

@@ -17,9 +17,9 @@ namespace {
 
 using mrpt::maps::CMultiMetricMap;
 using mrpt::poses::CPose3D;
-using testing::roomCloud;
-using testing::roomMap;
-using testing::sampleMap;
+using test::roomCloud;
+using test::roomMap;
+using test::sampleMap;
 
 std::string computeDigest(const CSemanticPointsMap& map) {
   return mapDigest(map.semanticMap().map());
@@ -35,7 +35,7 @@ CMultiMetricMap mapsOf(const std::string& ini) {
   return maps;
 }
 
-TEST(SemanticPointsMap, isAPointsMapOfTheOccupiedVoxels) {
+TEST(SemanticPointsMap, IsAPointsMapOfTheOccupiedVoxels) {
   CSemanticPointsMap map(sampleMap());
   EXPECT_TRUE(map.isEmpty());
   ASSERT_TRUE(map.insertObservation(*roomCloud()));
@@ -50,7 +50,7 @@ TEST(SemanticPointsMap, isAPointsMapOfTheOccupiedVoxels) {
   EXPECT_TRUE(map.semanticMap().isEmpty());
 }
 
-TEST(SemanticPointsMap, answersAsTheSemanticMap) {
+TEST(SemanticPointsMap, AnswersAsTheSemanticMap) {
   const CSemanticContinuousMap semantic = roomMap();
   const CSemanticPointsMap map(semantic);
   const CPose3D beside(0.3, 0.2, 0, 0.05, 0, 0);
@@ -65,7 +65,7 @@ TEST(SemanticPointsMap, answersAsTheSemanticMap) {
   EXPECT_EQ(map.asString(), semantic.asString());
 }
 
-TEST(SemanticPointsMap, isMadeFromAnIni) {
+TEST(SemanticPointsMap, IsMadeFromAnIni) {
   CMultiMetricMap maps = mapsOf(
       "[Maps]\nsemanticPointsMap_count = 1\n"
       "[Maps_semanticPointsMap_00_creationOpts]\nresolution = 0.3\n"
@@ -91,7 +91,7 @@ TEST(SemanticPointsMap, isMadeFromAnIni) {
   EXPECT_FALSE(copied->genericMapParams.enableObservationLikelihood);
 }
 
-TEST(SemanticPointsMap, copiesAreOfTheirOwn) {
+TEST(SemanticPointsMap, CopiesAreOfTheirOwn) {
   const CSemanticPointsMap original(roomMap());
   CSemanticPointsMap copy(original);
   CSemanticPointsMap assigned;

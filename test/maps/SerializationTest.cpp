@@ -19,8 +19,8 @@
 namespace csom {
 namespace {
 
-using testing::roomCloud;
-using testing::roomMap;
+using test::roomCloud;
+using test::roomMap;
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -88,7 +88,7 @@ bool isReadOrRejected(const Bytes& bytes) {
   map.map().forEachVoxel([&](const VoxelIndex&, const DirichletVoxel& voxel) {
     EXPECT_LT(voxel.mostLikelyClass(), map.labels().numberOfClasses());
   });
-  EXPECT_FALSE(std::isnan(map.computeObservationLikelihood(*testing::pointCloud({{1, 0, 0}}, {40}),
+  EXPECT_FALSE(std::isnan(map.computeObservationLikelihood(*test::pointCloud({{1, 0, 0}}, {40}),
                                                            mrpt::poses::CPose3D())));
   return true;
 }
@@ -106,7 +106,7 @@ CSemanticContinuousMap fullMap() {
   map.warn_of_damaged = false;
   map.insertObservation(*roomCloud(0.3f), mrpt::poses::CPose3D(0.5, 0, 0, 0.1, 0, 0));
   map.insertObservation(mrpt::obs::CObservationPointCloud());
-  map.insertObservation(*testing::pointCloud({{1e30f, 0, 0}}, {40}));
+  map.insertObservation(*test::pointCloud({{1e30f, 0, 0}}, {40}));
   map.insertionOptions.unlabelled_class = "road";
   map.insertionOptions.scan_2d_class = "wall";
   map.likelihoodOptions.decimation = 3;
@@ -123,7 +123,7 @@ CSemanticContinuousMap fullMap() {
   return map;
 }
 
-TEST(Serialization, carriesEverything) {
+TEST(Serialization, CarriesEverything) {
   const CSemanticContinuousMap map = fullMap();
   CSemanticContinuousMap copy;
   readInto(copy, serialised(map));
@@ -205,7 +205,7 @@ Bytes asWrittenBy(std::uint8_t version, const Bytes& today) {
   return parts.joined();
 }
 
-TEST(Serialization, readsWhatEarlierVersionsWrote) {
+TEST(Serialization, ReadsWhatEarlierVersionsWrote) {
   CSemanticContinuousMap map = fullMap();
   map.labelOptions.max_time_offset = 0.0625;
   const Bytes today = serialised(map);
@@ -230,7 +230,7 @@ TEST(Serialization, readsWhatEarlierVersionsWrote) {
   }
 }
 
-TEST(Serialization, carriesScanRecordsAndStatistics) {
+TEST(Serialization, CarriesScanRecordsAndStatistics) {
   const CSemanticContinuousMap map = fullMap();
   CSemanticContinuousMap copy;
   readInto(copy, serialised(map));
@@ -255,14 +255,14 @@ TEST(Serialization, carriesScanRecordsAndStatistics) {
   EXPECT_EQ(copy.statistics().labels.labelled, map.statistics().labels.labelled);
 }
 
-TEST(Serialization, equalMapsAreEqualBytes) {
+TEST(Serialization, EqualMapsAreEqualBytes) {
   const Bytes first = serialised(fullMap());
   CSemanticContinuousMap copy;
   readInto(copy, first);
   EXPECT_EQ(serialised(copy), first);
 }
 
-TEST(Serialization, worksThroughTheClassFactory) {
+TEST(Serialization, WorksThroughTheClassFactory) {
   const CSemanticContinuousMap map = roomMap();
   mrpt::io::CMemoryStream stream;
   auto archive = mrpt::serialization::archiveFrom(stream);
@@ -275,14 +275,14 @@ TEST(Serialization, worksThroughTheClassFactory) {
   EXPECT_EQ(mapDigest(copy->map()), mapDigest(map.map()));
 }
 
-TEST(Serialization, emptyMapsToo) {
+TEST(Serialization, EmptyMapsToo) {
   CSemanticContinuousMap copy = roomMap();
   readInto(copy, serialised(CSemanticContinuousMap()));
   EXPECT_TRUE(copy.isEmpty());
   EXPECT_TRUE(copy.scans().empty());
 }
 
-TEST(Serialization, truncatedStreamsAreErrorsAndChangeNothing) {
+TEST(Serialization, TruncatedStreamsAreErrorsAndChangeNothing) {
   const Bytes bytes = serialised(fullMap());
   CSemanticContinuousMap map = roomMap();
   const std::string digest = mapDigest(map.map());
@@ -295,7 +295,7 @@ TEST(Serialization, truncatedStreamsAreErrorsAndChangeNothing) {
   EXPECT_EQ(map.scans().size(), 1u);
 }
 
-TEST(Serialization, flippedBytesAreErrors) {
+TEST(Serialization, FlippedBytesAreErrors) {
   const Bytes bytes = serialised(fullMap());
   std::mt19937 random(3);
   // Behind the name of the class, which MRPT itself checks.
@@ -308,7 +308,7 @@ TEST(Serialization, flippedBytesAreErrors) {
   }
 }
 
-TEST(Serialization, damageWithAValidChecksumIsAnErrorOrAValidMap) {
+TEST(Serialization, DamageWithAValidChecksumIsAnErrorOrAValidMap) {
   const Parts parts(serialised(fullMap()));
   ASSERT_EQ(Parts(parts.joined()).block, parts.block);
   ASSERT_TRUE(isReadOrRejected(parts.joined()));
@@ -328,7 +328,7 @@ TEST(Serialization, damageWithAValidChecksumIsAnErrorOrAValidMap) {
   EXPECT_GT(rejected, 0u);
 }
 
-TEST(Serialization, shortOrLongBlocksWithAValidChecksumAreErrors) {
+TEST(Serialization, ShortOrLongBlocksWithAValidChecksumAreErrors) {
   const Parts parts(serialised(fullMap()));
   const std::size_t step = std::max<std::size_t>(1, parts.block.size() / 500);
   for (std::size_t size = 0; size < parts.block.size(); size += step) {
@@ -341,7 +341,7 @@ TEST(Serialization, shortOrLongBlocksWithAValidChecksumAreErrors) {
   EXPECT_FALSE(isReadOrRejected(longer.joined()));
 }
 
-TEST(Serialization, optionsAreChecked) {
+TEST(Serialization, OptionsAreChecked) {
   using Map = CSemanticContinuousMap;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::function<void(Map&)>> faults = {
@@ -359,7 +359,7 @@ TEST(Serialization, optionsAreChecked) {
   }
 }
 
-TEST(Serialization, labelSetsAreNotMixedUp) {
+TEST(Serialization, LabelSetsAreNotMixedUp) {
   const CSemanticContinuousMap occupancy;
   const CSemanticContinuousMap room = roomMap();
   CSemanticContinuousMap copy;
@@ -371,7 +371,7 @@ TEST(Serialization, labelSetsAreNotMixedUp) {
   }
 }
 
-TEST(Serialization, hugeSizesAreNotBelieved) {
+TEST(Serialization, HugeSizesAreNotBelieved) {
   Bytes bytes = serialised(CSemanticContinuousMap());
   // The block's size follows the name of the class and the version.
   const std::string name = "csom::CSemanticContinuousMap";

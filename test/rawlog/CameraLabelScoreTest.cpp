@@ -18,16 +18,16 @@ namespace csom {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::HasSubstr;
+using testing::HasSubstr;
 
 const std::string kCampusWorld = CSOM_SOURCE_DIR "/config/worlds/campus.yaml";
 const std::string kCampusRawlog = CSOM_SOURCE_DIR "/rawlogs/campus.rawlog";
 
-class CameraLabelScoreTest : public ::testing::Test {
+class CameraLabelScoreTest : public testing::Test {
  protected:
   void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(::testing::TempDir()) /
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) /
               ("csom_camera_score_" + std::string(test->name()) + std::to_string(::getpid()));
     fs::create_directories(folder_);
   }

@@ -76,7 +76,7 @@ class CampusDrive {
   std::vector<JudgedPoint> points_;
 };
 
-TEST(CameraMapAccuracy, isAtLeastThatOfTheNetworkOnTheSamePixels) {
+TEST(CameraMapAccuracy, IsAtLeastThatOfTheNetworkOnTheSamePixels) {
   const CampusDrive drive;
   std::size_t network_right = 0;
   std::size_t map_right = 0;

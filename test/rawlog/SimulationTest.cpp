@@ -30,16 +30,16 @@ namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-using ::testing::HasSubstr;
+using testing::HasSubstr;
 using namespace mrpt::obs;
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-class SimulationTest : public ::testing::Test {
+class SimulationTest : public testing::Test {
  protected:
   void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(::testing::TempDir()) /
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) /
               ("csom_simulation_" + std::string(test->name()) + std::to_string(::getpid()));
     fs::create_directories(folder_);
   }

@@ -46,10 +46,11 @@ def csom(*arguments):
 
 
 def map_campus(folder, options):
-    """Maps the drive of the repository with these keys of its ini changed; returns the folder with the report."""
+    """Maps the drive of the repository with these keys set in its ini; returns the folder with the report."""
     text = (SOURCE / "config/campus.ini").read_text()
     for key, value in options.items():
-        text, changes = re.subn(rf"(?m)^{key} *=.*$", f"{key} = {value}", text)
+        text = re.sub(rf"(?m)^{key} *=.*\n", "", text)
+        text, changes = re.subn(r"(?m)^(\[.*_00_insertOpts\])$", rf"\1\n{key} = {value}", text)
         assert changes == 1, key
     config = folder / "campus.ini"
     config.write_text(text)

@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using ::testing::HasSubstr;
+using testing::HasSubstr;
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -71,7 +71,7 @@ Vector2d projectedByOpenCv(const CameraCalibration& c, const Vector3d& point) {
   return {pixels.at(0).x, pixels.at(0).y};
 }
 
-class AgainstOpenCv : public ::testing::TestWithParam<LensDistortion> {};
+class AgainstOpenCv : public testing::TestWithParam<LensDistortion> {};
 
 TEST_P(AgainstOpenCv, RandomLensesAndPoints) {
   RandomLens random;
@@ -92,8 +92,8 @@ TEST_P(AgainstOpenCv, RandomLensesAndPoints) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryModel, AgainstOpenCv,
-                         ::testing::Values(LensDistortion::None, LensDistortion::PlumbBob,
-                                           LensDistortion::KannalaBrandt));
+                         testing::Values(LensDistortion::None, LensDistortion::PlumbBob,
+                                         LensDistortion::KannalaBrandt));
 
 /// Where OpenCV's projection, followed outwards along the x axis, turns back: the lens model ends.
 double angleAtWhichOpenCvTurnsBack(const CameraCalibration& c, double end) {

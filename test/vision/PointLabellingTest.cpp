@@ -17,10 +17,10 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
-using ::testing::ElementsAre;
-using ::testing::FloatEq;
-using ::testing::FloatNear;
-using ::testing::HasSubstr;
+using testing::ElementsAre;
+using testing::FloatEq;
+using testing::FloatNear;
+using testing::HasSubstr;
 using LabelMode = PointLabellingOptions::LabelMode;
 using LowConfidence = PointLabellingOptions::LowConfidence;
 using SeveralCameras = PointLabellingOptions::SeveralCameras;
@@ -67,7 +67,7 @@ CameraCalibration calibration() {
   return {kSize, kSize, 50, 50, 49.5, 49.5, LensDistortion::None, {}};
 }
 
-class PointLabellingTest : public ::testing::Test {
+class PointLabellingTest : public testing::Test {
  protected:
   /// Looks along z, turned to the right by `turn` [rad].
   CameraView view(const SemanticImage& image, double turn = 0) const {

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 namespace csom {
@@ -30,11 +31,13 @@ void rejectOption(const std::string& key, const std::string& value, const std::s
 }
 
 std::string rangeText(const Range& range) {
-  const bool bounded_below = std::isfinite(range.min);
-  const bool bounded_above = std::isfinite(range.max);
-  if (bounded_below && bounded_above)
-    return ", " + toString(range.min) + " to " + toString(range.max);
-  return bounded_below ? ", at least " + toString(range.min) : "";
+  constexpr double kAsGoodAsNone = 1e5;
+  std::array<char, 64> text{};
+  if (range.max < kAsGoodAsNone)
+    std::snprintf(text.data(), text.size(), " (%g to %g)", range.min, range.max);
+  else if (range.min > 0)
+    std::snprintf(text.data(), text.size(), " (at least %g)", range.min);
+  return text.data();
 }
 
 void requireInRange(const OptionInfo& option, int value) {

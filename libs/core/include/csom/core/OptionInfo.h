@@ -44,7 +44,7 @@ namespace detail {
 
 [[noreturn]] void rejectOption(const std::string& key, const std::string& value,
                                const std::string& accepted);
-/// ", 1 to 4", or nothing for numbers of any size.
+/// " (1 to 4)", or nothing for numbers of any size.
 std::string rangeText(const Range& range);
 /// Both throw OptionError.
 void requireInRange(const OptionInfo& option, int value);
