@@ -47,6 +47,8 @@ foreach(component core vision io exports mrpt_exports eval maps rawlog protocols
     -B ${WORK_DIR}/one_component/${component} -DCOMPONENT=${component}
     -DCMAKE_PREFIX_PATH=${WORK_DIR}/moved -DCMAKE_CXX_COMPILER=${CXX_COMPILER})
 endforeach()
+run(${CMAKE_COMMAND} --build ${WORK_DIR}/one_component/core)
+run(${WORK_DIR}/one_component/core/one_component)
 
 run(${WORK_DIR}/moved/${BINDIR}/csom --version)
 # Its modules have moved along.
