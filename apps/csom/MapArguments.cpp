@@ -88,7 +88,7 @@ void check(const MapArguments& arguments) {
         "--no-html, --color-blind and --json");
 }
 
-MappingRequest readRequest(const MapArguments& arguments) {
+MappingRequest makeRequest(const MapArguments& arguments) {
   MappingRequest request;
   request.logs = arguments.logs;
   request.config_file = arguments.config;

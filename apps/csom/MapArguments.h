@@ -36,7 +36,7 @@ void addMapOptions(CLI::App& command, MapArguments& arguments);
 /// Throws ConfigError for options that do not go together.
 void check(const MapArguments& arguments);
 
-MappingRequest readRequest(const MapArguments& arguments);
+MappingRequest makeRequest(const MapArguments& arguments);
 
 /// What a resumed run must know of the arguments beside the request, and back.
 std::map<std::string, std::string> makeNotes(const MapArguments& arguments);

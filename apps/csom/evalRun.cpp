@@ -50,7 +50,7 @@ std::vector<std::string> protocolsOf(const std::string& text) {
   return names;
 }
 
-EvaluationRequest readRequest(const EvalRunArguments& arguments) {
+EvaluationRequest makeRequest(const EvalRunArguments& arguments) {
   EvaluationRequest request;
   request.protocols = protocolsOf(arguments.protocols);
   const auto methods = arguments.methods.empty() ? defaultMethods() : split(arguments.methods);
@@ -85,7 +85,7 @@ void write(const std::string& file, const std::string& text) {
 }
 
 void runEval(const EvalRunArguments& arguments) {
-  const EvaluationRequest request = readRequest(arguments);
+  const EvaluationRequest request = makeRequest(arguments);
   const OutputFolder folder(arguments.output, {kJsonFile, kTablesFile, kPageFile});
   const Evaluation evaluation = evaluateWithProgress(request);
   for (const std::string& warning : evaluation.warnings)

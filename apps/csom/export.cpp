@@ -241,7 +241,10 @@ void addFormatOptions(CLI::App& command, const std::shared_ptr<ExportArguments>&
 std::string formatsHelp() {
   std::string help = "Formats:\n";
   for (const ExportFormat& format : formats())
-    help += "  " + std::string(format.name) + std::string(9 - std::strlen(format.name), ' ') +
+    help += "  " + std::string(format.name) +
+            std::string(
+                std::max<std::size_t>(9, std::strlen(format.name) + 1) - std::strlen(format.name),
+                ' ') +
             format.help + "\n";
   return help;
 }

@@ -192,7 +192,7 @@ void runMap(MapArguments arguments) {
   check(arguments);
   const StopSignal signal;
   const MappingRequest request =
-      arguments.resume.empty() ? readRequest(arguments) : resumedRequest(arguments);
+      arguments.resume.empty() ? makeRequest(arguments) : resumedRequest(arguments);
   const OutputFolder folder = outputFolder(arguments, request);
   StagedResults results(folder);
 

@@ -159,7 +159,7 @@ TEST_F(CameraLabelledAdapterTest, AScanWhoseImageIsMissingGivesUpWhenTimeHasPass
   EXPECT_TRUE(scans[0].scan.points.empty());
   EXPECT_EQ(statistics().scans.without_image, 1U);
   EXPECT_EQ(statistics().points.outside_view, 2U);
-  EXPECT_EQ(statistics().pointsDropped(), 2U);
+  EXPECT_EQ(statistics().points.dropped(), 2U);
 }
 
 TEST_F(CameraLabelledAdapterTest, FlushFinishesWhatWaits) {
@@ -196,7 +196,7 @@ TEST_F(CameraLabelledAdapterTest, PointsThatNoCameraSeesAreDroppedOrUnlabelled) 
   ASSERT_EQ(kept->size(), 1U);
   EXPECT_THAT(kept->front().scan.labels, ElementsAre(kRoad, kUnlabelled));
   EXPECT_EQ(keeping.cameraStatistics()->points.kept_unlabelled, 1U);
-  EXPECT_EQ(keeping.cameraStatistics()->pointsDropped(), 0U);
+  EXPECT_EQ(keeping.cameraStatistics()->points.dropped(), 0U);
 }
 
 TEST_F(CameraLabelledAdapterTest, A1_pointsOnPixelsWithoutAClassAreObstaclesTooIfThoseOutsideAre) {
@@ -209,12 +209,12 @@ TEST_F(CameraLabelledAdapterTest, A1_pointsOnPixelsWithoutAClassAreObstaclesTooI
   const auto kept = keeping.adapt(*scanAt(0), roundedPose({}), rules_);
   ASSERT_EQ(kept->size(), 1U);
   EXPECT_THAT(kept->front().scan.labels, ElementsAre(kUnlabelled, kUnlabelled));
-  EXPECT_EQ(keeping.cameraStatistics()->pointsDropped(), 0U);
-  EXPECT_EQ(keeping.cameraStatistics()->pointsRejected(), 0U);
+  EXPECT_EQ(keeping.cameraStatistics()->points.dropped(), 0U);
+  EXPECT_EQ(keeping.cameraStatistics()->points.rejected(), 0U);
 
   give(*labelImage(0, kIgnored, kUnknown));
   EXPECT_TRUE(give(*scanAt(0)).front().scan.labels.empty());
-  EXPECT_EQ(statistics().pointsRejected(), 2U);
+  EXPECT_EQ(statistics().points.rejected(), 2U);
 }
 
 TEST_F(CameraLabelledAdapterTest, A8_itTellsWhichWayTheCameraLooks) {

@@ -162,19 +162,24 @@ Bytes asWrittenBy(std::uint8_t version, const Bytes& today) {
     to.number(count);
     copyTexts(2 * count, to);
   };
-  ByteWriter later;  // what that version did not have
+  ByteWriter later;  // what that version did not have, or had otherwise
+  const CSemanticContinuousMap map = fullMap();
 
   copyBytes(3, out);
   copyOptions(version < 3 ? later : out);
   if (version < 3) {
-    const CSemanticContinuousMap map = fullMap();
     out.number(static_cast<std::uint8_t>(map.renderingOptions.occupied_voxels));
     out.number(static_cast<std::uint8_t>(map.renderingOptions.free_voxels));
   }
-  copyTexts(3, out);
+  copyOptions(version < 5 ? later : out);
+  if (version < 5) {
+    const auto& options = map.insertionOptions;
+    for (const std::string& text :
+         {toString(options.point_labels), options.unlabelled_class, options.scan_2d_class})
+      out.text(text);
+  }
   copyOptions(version < 2 ? later : out);
   if (version < 2) {
-    const CSemanticContinuousMap map = fullMap();
     out.number(static_cast<std::int32_t>(map.likelihoodOptions.decimation));
     out.number(map.likelihoodOptions.max_distance);
     out.number(map.likelihoodOptions.sigma);
@@ -195,9 +200,21 @@ Bytes asWrittenBy(std::uint8_t version, const Bytes& today) {
   copyBytes(2 * sizeof(std::uint64_t), out);
   copyCounts();
   copyCounts();
-  copyOptions(out);                           // reasons
-  copyBytes(6 * sizeof(std::uint64_t), out);  // points by their labels
-  copyBytes(2 * sizeof(std::uint64_t), version < 4 ? later : out);
+  copyOptions(out);                                 // reasons
+  const auto figures = in.number<std::uint64_t>();  // points by their labels
+  (version < 5 ? later : out).number(figures);
+  for (std::uint64_t left = figures; left > 0; --left) {
+    copyTexts(1, version < 5 ? later : out);
+    copyBytes(sizeof(double), version < 5 ? later : out);
+  }
+  if (version < 5) {
+    const LabelCounts& labels = map.statistics().labels;
+    for (const std::size_t count : {labels.labelled, labels.unlabelled, labels.missing,
+                                    labels.unknown, labels.ignored, labels.ambiguous})
+      out.number(static_cast<std::uint64_t>(count));
+    if (version >= 4) out.number(static_cast<std::uint64_t>(labels.kept_unknown));
+  }
+  copyBytes(sizeof(std::uint64_t), version < 4 ? later : out);  // beams without return
   copyBytes(in.left() - 1, out);
   copyBytes(1, version < 1 ? later : out);  // is there an adapter? no
   parts.front.back() = version;
@@ -209,8 +226,8 @@ TEST(Serialization, ReadsWhatEarlierVersionsWrote) {
   CSemanticContinuousMap map = fullMap();
   map.labelOptions.max_time_offset = 0.0625;
   const Bytes today = serialised(map);
-  ASSERT_EQ(asWrittenBy(4, today), today) << "the test does not follow the format any more";
-  for (std::uint8_t version = 0; version < 4; ++version) {
+  ASSERT_EQ(asWrittenBy(5, today), today) << "the test does not follow the format any more";
+  for (std::uint8_t version = 0; version < 5; ++version) {
     SCOPED_TRACE(static_cast<int>(version));
     CSemanticContinuousMap copy;
     readInto(copy, asWrittenBy(version, today));
@@ -225,6 +242,10 @@ TEST(Serialization, ReadsWhatEarlierVersionsWrote) {
     EXPECT_EQ(copy.likelihoodOptions.sigma, 0.125);
     EXPECT_EQ(copy.likelihoodOptions.method,
               version < 2 ? LikelihoodOptions().method : LikelihoodMethod::Beam);
+    EXPECT_EQ(copy.insertionOptions.point_labels, PointLabels::ByIntensity);
+    EXPECT_EQ(copy.insertionOptions.unlabelled_class, "road");
+    EXPECT_EQ(copy.insertionOptions.scan_2d_class, "wall");
+    EXPECT_EQ(copy.statistics().labels.labelled, map.statistics().labels.labelled);
     EXPECT_EQ(copy.labelOptions.max_time_offset,
               version < 1 ? LabelOptions().max_time_offset : 0.0625);
   }

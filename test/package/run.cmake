@@ -50,6 +50,15 @@ endforeach()
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/one_component/core)
 run(${WORK_DIR}/one_component/core/one_component)
 
+# Sources inside another project. Not optimised: Eigen takes long.
+foreach(fetch OFF ON)
+  run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${CONSUMER_DIR}/subproject -B ${WORK_DIR}/subproject/${fetch}
+    -DCSOM_SOURCES=${root} -DFETCH=${fetch} -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+    -DCMAKE_CXX_COMPILER_LAUNCHER=${COMPILER_LAUNCHER})
+endforeach()
+run(${CMAKE_COMMAND} --build ${WORK_DIR}/subproject/ON)
+run(${WORK_DIR}/subproject/ON/one_component)
+
 run(${WORK_DIR}/moved/${BINDIR}/csom --version)
 # Its modules have moved along.
 run(${WORK_DIR}/moved/${BINDIR}/csom map ${root}/rawlogs/room.rawlog -c ${root}/config/room.ini

@@ -187,7 +187,7 @@ TEST_F(DeskewTest, RegistrationTakesTheMotionOutOfWhatItRegisters) {
   simulate(", sweep: moving, range_sigma: 0.02");
   const MappingResult result = mapped(log, true, "icp");
   EXPECT_EQ(result.deskew->deskewed, scans.size() - 1);
-  EXPECT_EQ(result.registration->doubtful, 0U);
+  EXPECT_EQ(result.registration->statistics.doubtful, 0U);
   // The first turns are registered as they are: no motion is known yet that could be taken out.
   constexpr std::size_t kSettled = 3;
   ASSERT_GT(result.trajectory.size(), kSettled + 10);

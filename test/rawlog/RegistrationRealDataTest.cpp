@@ -24,7 +24,7 @@ std::vector<TimedPose> registered(const TempFolder& folder, const std::string& l
   request.config_file = writeConfig(folder, "point_labels = none\nunlabelled_class = wall");
   request.poses = PoseChoice::parse("icp");
   const MappingResult result = mapLogs(request);
-  EXPECT_EQ(result.registration->doubtful, 0U);
+  EXPECT_EQ(result.registration->statistics.doubtful, 0U);
   return result.trajectory;
 }
 

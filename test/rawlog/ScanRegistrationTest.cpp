@@ -139,8 +139,8 @@ TEST_F(RegisteredLog, StaysNearTheTruth) {
   const auto truth = readTumTrajectory(folder / "truth.tum");
   ASSERT_EQ(result.trajectory.size(), truth.size());
   ASSERT_GE(truth.size(), 20U);
-  EXPECT_EQ(result.registration->scans, truth.size());
-  EXPECT_EQ(result.registration->doubtful, 0U);
+  EXPECT_EQ(result.registration->statistics.scans, truth.size());
+  EXPECT_EQ(result.registration->statistics.doubtful, 0U);
   EXPECT_TRUE(result.trajectory[0].pose.isApprox(Eigen::Isometry3d::Identity()));
   for (std::size_t i = 0; i < truth.size(); ++i) {
     EXPECT_NEAR(result.trajectory[i].timestamp, truth[i].timestamp, 1e-5);
@@ -244,8 +244,8 @@ TEST_F(RegisteredLog, DoubtfulScansAreCountedAndSaid) {
   entries.insert(entries.begin() + 11, strange);
   entries.insert(entries.begin() + 15, entries.at(3));
   const MappingResult result = mapped(writeLog(folder / "strange.rawlog", entries));
-  EXPECT_EQ(result.registration->doubtful, 2U);
-  EXPECT_EQ(result.registration->scans, entries.size());
+  EXPECT_EQ(result.registration->statistics.doubtful, 2U);
+  EXPECT_EQ(result.registration->statistics.scans, entries.size());
   EXPECT_THAT(
       result.warnings,
       testing::IsSupersetOf(

@@ -82,6 +82,12 @@ void readByName(ByteReader& in, Visit&& visit) {
     throw std::runtime_error("serialised map: unknown option '" + texts.begin()->first + "'");
 }
 
+/// Before version 5 some options had no names, but an order.
+template <class Visit>
+void readInOrder(ByteReader& in, Visit&& visit) {
+  visit([&](const OptionInfo& option, auto& field) { parse(option.key, in.text(), field); });
+}
+
 void write(ByteWriter& out, const Options& options) {
   writeByName(out, [&](auto&& visitor) { visitOptions(options, visitor); });
 }
@@ -96,18 +102,21 @@ void write(ByteWriter& out, const LabelOptions& options) {
   writeByName(out, [&](auto&& visitor) { visitOptions(options, visitor); });
   out.number(static_cast<std::uint64_t>(options.sources.size()));
   for (const LabelSource& source : options.sources)
-    visitOptions(source, [&](const OptionInfo&, const auto& field) { out.text(toString(field)); });
+    writeByName(out, [&](auto&& visitor) { visitOptions(source, visitor); });
 }
 
-LabelOptions readLabelOptions(ByteReader& in) {
+LabelOptions readLabelOptions(ByteReader& in, std::uint8_t version) {
   constexpr std::size_t kSmallest = 5 * sizeof(std::uint32_t);
   LabelOptions options;
   readByName(in, [&](auto&& visitor) { visitOptions(options, visitor); });
   options.sources.resize(in.count(kSmallest));
-  for (LabelSource& source : options.sources)
-    visitOptions(source, [&](const OptionInfo& option, auto& field) {
-      parse(option.key, in.text(), field);
-    });
+  for (LabelSource& source : options.sources) {
+    const auto visit = [&](auto&& visitor) { visitOptions(source, visitor); };
+    if (version >= 5)
+      readByName(in, visit);
+    else
+      readInOrder(in, visit);
+  }
   options.validate();
   return options;
 }
@@ -286,9 +295,7 @@ void CSemanticContinuousMap::serializeTo(mrpt::serialization::CArchive& out) con
         genericMapParams.enableObservationInsertion})
     block.number(static_cast<std::uint8_t>(flag));
   write(block, static_cast<const RenderingOptions&>(renderingOptions));
-  block.text(toString(insertionOptions.point_labels));
-  block.text(insertionOptions.unlabelled_class);
-  block.text(insertionOptions.scan_2d_class);
+  writeByName(block, [&](auto&& visitor) { visitOptions(insertionOptions, visitor); });
   write(block, static_cast<const LikelihoodOptions&>(likelihoodOptions));
   write(block, labelOptions);
   write(block, map_.options());
@@ -320,12 +327,14 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
     *flag = block.flag();
   const RenderingOptions rendering = readRenderingOptions(block, version);
   TInsertionOptions insertion;
-  parse("point_labels", block.text(), insertion.point_labels);
-  insertion.unlabelled_class = block.text();
-  insertion.scan_2d_class = block.text();
+  const auto visitInsertion = [&](auto&& visitor) { visitOptions(insertion, visitor); };
+  if (version >= 5)
+    readByName(block, visitInsertion);
+  else
+    readInOrder(block, visitInsertion);
   const LikelihoodOptions likelihood = readLikelihoodOptions(block, version);
   LabelOptions label_options;
-  if (version >= 1) label_options = readLabelOptions(block);
+  if (version >= 1) label_options = readLabelOptions(block, version);
   SemanticMap map(readOptions(block));
   std::shared_ptr<const SharedLabels> labels = SharedLabels::fromYaml(block.text());
   // Throws for classes that are not in the label set.

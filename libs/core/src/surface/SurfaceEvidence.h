@@ -18,7 +18,7 @@
 namespace csom::detail {
 
 /// Sums over the training points, for each voxel of a chunk: a lane a voxel along x, single
-/// precision, in the order of the points. SurfaceCsom.h has the equations.
+/// precision, in the order of the points. SurfaceCsom.cpp has the equations.
 class CSOM_OF_ONE_BINARY SurfaceEvidence {
  public:
   /// Beyond its thickness a plane speaks against voxels, this far along its normal [voxels]. What

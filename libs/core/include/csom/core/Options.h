@@ -119,7 +119,7 @@ struct SeeCsomOptions {
   }
 };
 
-/// Method::SurfaceCsom; symbols are those of src/surface/SurfaceCsom.h.
+/// Method::SurfaceCsom; docs/algorithm.md and src/surface/SurfaceCsom.cpp have the equations.
 struct SurfaceOptions {
   bool planes = true;
   int neighbours = 8;
