@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `csom map` is asked to do.
+// The command line of `csom map`.
 #pragma once
 
 #include <csom/io/MapStore.h>

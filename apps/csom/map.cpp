@@ -174,7 +174,7 @@ CheckpointRequest checkpointsOf(const MapArguments& arguments, const MappingRequ
   return checkpoints;
 }
 
-/// Fills in what the run was asked that is to be gone on with.
+/// The request of the run that is to be gone on with.
 MappingRequest resumedRequest(MapArguments& arguments) {
   arguments.output = arguments.resume;
   const std::string file = (std::filesystem::path(arguments.resume) / kUnfinished).string();

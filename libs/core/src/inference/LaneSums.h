@@ -68,7 +68,7 @@ class LaneSums {
     }
   }
 
-  /// Ends the additions: what follows may be asked.
+  /// Ends the additions: to be called before what follows.
   void finish() { std::sort(touched_.begin(), touched_.end()); }
   /// The classes with any mass, ascending.
   const std::vector<ClassId>& classes() const { return touched_; }

@@ -121,8 +121,8 @@ class Preparation {
     return std::nullopt;
   }
 
-  /// Whether a point is so far from every limit that reasonToReject() need not be asked: nearly all
-  /// are, and this costs no square root.
+  /// Whether a point is so far from every limit that reasonToReject() need not be called: nearly
+  /// all are, and this costs no square root.
   bool isFarFromLimits(const Eigen::Vector3f& point) const {
     const Eigen::Vector3d p = point.cast<double>();
     const double squared = p.squaredNorm();

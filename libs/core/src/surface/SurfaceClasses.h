@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which classes the hits around the voxels of a chunk speak of (surface-csom).
+// The classes of the hits around the voxels of a chunk (surface-csom).
 #pragma once
 
 #include <csom/core/Options.h>
@@ -27,7 +27,7 @@ struct HitColumns {
 };
 
 /// m^k of (S5): kernel mass by class, each hit with the length max(L_J, its own reach), so that
-/// whatever votes for a voxel also tells a class.
+/// whatever votes for a voxel also has a class for it.
 class SurfaceClasses {
  public:
   explicit SurfaceClasses(const Options& options)

@@ -21,8 +21,8 @@ namespace csom::detail {
 /// precision, in the order of the points. SurfaceCsom.cpp has the equations.
 class CSOM_OF_ONE_BINARY SurfaceEvidence {
  public:
-  /// Beyond its thickness a plane speaks against voxels, this far along its normal [voxels]. What
-  /// is farther off it says nothing about.
+  /// Beyond its thickness a plane is evidence against voxels, this far along its normal [voxels].
+  /// What is farther off it says nothing about.
   static constexpr float kShell = 0.5F;
 
   explicit SurfaceEvidence(const Options& options);
@@ -32,7 +32,7 @@ class CSOM_OF_ONE_BINARY SurfaceEvidence {
   /// Points points[begin] … points[end−1] of the scan.
   void add(const PointColumns& points, const std::vector<LocalSurface>& surfaces,
            std::uint32_t begin, std::uint32_t end);
-  /// Ends the additions: what follows may be asked. Returns false if there is no evidence.
+  /// Ends the additions: to be called before what follows. Returns false if there is no evidence.
   bool finish();
 
   /// Evidence that a voxel is occupied: Σ_{k≥1} Δσ^k of (S5).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Labels points by camera images of a simulated world, and asks the world who is right.
+// Labels points by camera images of a simulated world, and compares them with the truth.
 #include <csom/core/Error.h>
 #include <csom/maps/CameraImage.h>
 #include <csom/maps/PointExtractor.h>

@@ -46,7 +46,7 @@ class DirichletVoxel {
   bool known() const { return size_ > 0; }
   VoxelState state() const {
     if (!known()) return VoxelState::Unknown;
-    // Nearly always so: nothing speaks for free, or nothing else.
+    // Nearly always so: there is no evidence of free, or of nothing else.
     if (classes_[0] != kFreeClass) return VoxelState::Occupied;
     if (size_ == 1) return VoxelState::Free;
     return mostLikelyClass() == kFreeClass ? VoxelState::Free : VoxelState::Occupied;

@@ -173,7 +173,7 @@ struct SurfaceOptions {
             o.free_limit);
     visitor(OptionInfo{"counter_evidence",
                        "",
-                       "surface-csom: weight of what speaks against a voxel beside a surface",
+                       "surface-csom: weight of the evidence against a voxel beside a surface",
                        {0, 100}},
             o.counter_evidence);
   }

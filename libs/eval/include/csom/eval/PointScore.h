@@ -11,10 +11,10 @@
 namespace csom {
 
 /// What the voxel at each labelled point says of it. A labelled point lies on a surface, so that
-/// the voxel is asked of what class a surface in it would be. An unknown voxel gives the point
-/// class 0, which is never right: points never seen count, or a map could do better by knowing
-/// less. The scores named `covered` are over the points in known voxels alone; to those named
-/// `occupied` a point is wrong too if the map holds its voxel to be free.
+/// its truth is compared with the class that a surface in the voxel would have. An unknown voxel
+/// gives the point class 0, which is never right: points never seen count, or a map could do better
+/// by knowing less. The scores named `covered` are over the points in known voxels alone; to those
+/// named `occupied` a point is wrong too if the map holds its voxel to be free.
 class PointScore {
  public:
   explicit PointScore(int number_of_classes);

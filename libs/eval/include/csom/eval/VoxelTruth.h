@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is true of every voxel of a box, and what is not to be asked.
+// What is true of every voxel of a box, and which voxels are not scored.
 #pragma once
 
 #include <csom/core/Grid.h>

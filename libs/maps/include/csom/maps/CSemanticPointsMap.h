@@ -12,7 +12,7 @@
 namespace csom {
 
 /// A CSemanticContinuousMap for programs that accept nothing but points maps, like MRPT's icp-slam:
-/// it is filled, saved, drawn and asked as that map; its points are the centres of the occupied
+/// it is filled, saved, drawn and queried as that map; its points are the centres of the occupied
 /// voxels. In ini files `semanticPointsMap_count = 1`, with the sections of the semantic map.
 ///
 /// Points that are added by other ways than observations are not part of the map and go with the

@@ -14,7 +14,7 @@
 namespace csom {
 
 /// Points in the map frame [m], a class each; kFreeClass marks a point whose label is not to be
-/// used: whatever is there is not asked.
+/// used: whatever is there is not scored.
 struct LabelledCloud {
   std::vector<Eigen::Vector3d> points;
   std::vector<ClassId> labels;

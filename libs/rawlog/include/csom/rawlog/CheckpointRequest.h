@@ -29,9 +29,9 @@ struct CheckpointRequest {
   std::map<std::string, std::string> meta;
   /// The caller's own, for resuming: MapStore::State has them under `note.KEY`.
   std::map<std::string, std::string> notes;
-  /// Asked after every entry. True: commit, and end with Interrupted.
+  /// Called after every entry. True: commit, and end with Interrupted.
   std::function<bool()> stop;
-  /// Asked after every entry. A text, what is short: commit, and end with std::runtime_error.
+  /// Called after every entry. A text, what is short: commit, and end with Error.
   std::function<std::optional<std::string>()> memory_shortage;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one run of `csom map` was asked to do and what became of it: the source of every figure that
+// What one run of `csom map` was to do and what became of it: the source of every figure that
 // a report shows.
 #pragma once
 
