@@ -158,7 +158,8 @@ TEST_F(BadInput, AConfigurationThatIsWrong) {
 }
 
 TEST_F(BadInput, OptionsThatAreWrong) {
-  expectRefused(map(log, {"--poses", "gps"}), 2, HasSubstr("--poses 'gps'"));
+  expectRefused(map(log, {"--poses", "gps"}), 2,
+                AllOf(HasSubstr("source of poses 'gps': expected"), HasSubstr("(--poses)")));
   expectRefused(map(log, {"--poses", "odometry"}), 2, HasSubstr("drive.rawlog: holds no odometry"));
   expectRefused(map(log, {"--poses", "tum:" + (folder / "none")}), 1, HasSubstr("none"));
   expectRefused(map(log, {"--threads", "-1"}), 2, HasSubstr("threads"));

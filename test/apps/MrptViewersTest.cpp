@@ -50,7 +50,7 @@ class MrptViewers : public testing::Test {
 };
 
 TEST_F(MrptViewers, SceneViewerShowsTheSceneThatAMapSaves) {
-  CSemanticContinuousMap map = csom::test::roomMap();  // walls of a green class
+  CSemanticContinuousMap map = csom::sample::roomMap();  // walls of a green class
   map.renderingOptions.save_scene = true;
   map.saveMetricMapRepresentationToFile(folder_ / "room");
   auto viewer = start({"SceneViewer3D", folder_ / "room.3Dscene"});
@@ -70,7 +70,7 @@ TEST_F(MrptViewers, SceneViewerLoadsThePlugin) {
 void writeLogWithMap(const std::string& file) {
   mrpt::io::CFileGZOutputStream stream(file);
   auto archive = mrpt::serialization::archiveFrom(stream);
-  const auto scan = csom::test::laserScan();
+  const auto scan = csom::sample::laserScan();
   scan->timestamp = mrpt::Clock::fromDouble(1.5e9);
   CSemanticContinuousMap map;
   map.insertObservation(*scan);

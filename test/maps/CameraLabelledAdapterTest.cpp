@@ -22,8 +22,8 @@ namespace {
 
 using mrpt::obs::CObservationImage;
 using mrpt::poses::CPose3D;
-using test::pointCloud;
-using test::sampleLabels;
+using sample::pointCloud;
+using sample::sampleLabels;
 using testing::ElementsAre;
 using testing::HasSubstr;
 

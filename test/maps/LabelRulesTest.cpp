@@ -19,7 +19,7 @@ namespace {
 using Kind = PointLabel::Kind;
 
 TEST(LabelRules, RawIdsBecomeClasses) {
-  const LabelSet labels = test::sampleLabels();
+  const LabelSet labels = sample::sampleLabels();
   const LabelRules rules(labels, PointLabels::ByIntensity, "", "");
   EXPECT_EQ(rules.fromRaw(40), (PointLabel{Kind::Class, 1}));
   EXPECT_EQ(rules.fromRaw(0), PointLabel{Kind::Ignored});
@@ -27,7 +27,7 @@ TEST(LabelRules, RawIdsBecomeClasses) {
 }
 
 TEST(LabelRules, IntensitiesMustBeWholeNumbers) {
-  const LabelSet labels = test::sampleLabels();
+  const LabelSet labels = sample::sampleLabels();
   const LabelRules rules(labels, PointLabels::ByIntensity, "", "");
   EXPECT_EQ(rules.fromIntensity(50.0f), (PointLabel{Kind::Class, 2}));
   for (const float bad : {50.5f, -40.0f, 1e30f, std::numeric_limits<float>::quiet_NaN(),
@@ -36,7 +36,7 @@ TEST(LabelRules, IntensitiesMustBeWholeNumbers) {
 }
 
 TEST(LabelRules, ColoursAndNamesMustMatchExactly) {
-  const LabelSet labels = test::sampleLabels();
+  const LabelSet labels = sample::sampleLabels();
   const LabelRules rules(labels, PointLabels::ByColor, "", "");
   EXPECT_EQ(rules.fromColor({0, 200, 0}), (PointLabel{Kind::Class, 2}));
   EXPECT_EQ(rules.fromColor({0, 201, 0}), PointLabel{Kind::Unknown});
@@ -62,20 +62,20 @@ TEST(LabelRules, A1_noLabelOfAPointMeansFree) {
 }
 
 TEST(LabelRules, UnlabelledPointsHaveADefaultClass) {
-  const LabelSet sample = test::sampleLabels();
+  const LabelSet sample = sample::sampleLabels();
   EXPECT_EQ(LabelRules(sample, PointLabels::None, "", "").unlabelledClass(), ClassId{3});
   const LabelSet occupancy = LabelSet::occupancy();
   EXPECT_EQ(LabelRules(occupancy, PointLabels::None, "", "").unlabelledClass(), ClassId{1});
 }
 
 TEST(LabelRules, UnlabelledPointsMayBeDroppedOrNamed) {
-  const LabelSet labels = test::sampleLabels();
+  const LabelSet labels = sample::sampleLabels();
   EXPECT_FALSE(LabelRules(labels, PointLabels::None, "drop", "").unlabelledClass());
   EXPECT_EQ(LabelRules(labels, PointLabels::None, "wall", "").unlabelledClass(), ClassId{2});
 }
 
 TEST(LabelRules, ScansOf2DFollowTheirOwnKey) {
-  const LabelSet labels = test::sampleLabels();
+  const LabelSet labels = sample::sampleLabels();
   EXPECT_EQ(LabelRules(labels, PointLabels::None, "", "wall").ofScan2D(),
             (PointLabel{Kind::Class, 2}));
   EXPECT_EQ(LabelRules(labels, PointLabels::None, "road", "").ofScan2D(),
@@ -84,7 +84,7 @@ TEST(LabelRules, ScansOf2DFollowTheirOwnKey) {
 }
 
 TEST(LabelRules, UnknownClassNamesAreNamedInTheError) {
-  const LabelSet labels = test::sampleLabels();
+  const LabelSet labels = sample::sampleLabels();
   try {
     LabelRules(labels, PointLabels::None, "lawn", "");
     FAIL() << "accepted";

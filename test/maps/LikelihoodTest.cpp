@@ -18,10 +18,10 @@ namespace csom {
 namespace {
 
 using mrpt::poses::CPose3D;
-using test::roomCloud;
-using test::roomMap;
-using test::roomPoints;
-using test::sampleMap;
+using sample::roomCloud;
+using sample::roomMap;
+using sample::roomPoints;
+using sample::sampleMap;
 
 TEST(Likelihood, FallsWithTheDistanceFromTheTruth) {
   const CSemanticContinuousMap map = roomMap();
@@ -75,8 +75,8 @@ TEST(Likelihood, WrongOptionsAreNoDamagedObservation) {
 
 /// One observation of every kind that carries points, each with walls around the sensor.
 std::vector<mrpt::obs::CObservation::Ptr> everyKind() {
-  return {test::laserScan(361, 3.0f), test::rangeCamera(), test::velodyneRoom(),
-          test::rotatingScan(), roomCloud()};
+  return {sample::laserScan(361, 3.0f), sample::rangeCamera(), sample::velodyneRoom(),
+          sample::rotatingScan(), roomCloud()};
 }
 
 TEST(Likelihood, IsHighestAtTheTruthForEveryKind) {
@@ -100,12 +100,12 @@ TEST(Likelihood, IsHighestAtTheTruthForEveryKind) {
 
 TEST(Likelihood, CannotBeComputedOfWhatHoldsNoPoints) {
   const CSemanticContinuousMap map = roomMap();
-  auto unknown_rows = test::rotatingScan();
+  auto unknown_rows = sample::rotatingScan();
   unknown_rows->lidarModel = "OS1";
   unknown_rows->rowCount = 4;
   unknown_rows->rangeImage.setZero(4, 360);
   const std::vector<mrpt::obs::CObservation::Ptr> none = {
-      test::laserScan(0),
+      sample::laserScan(0),
       mrpt::obs::CObservation3DRangeScan::Create(),
       mrpt::obs::CObservationVelodyneScan::Create(),
       mrpt::obs::CObservationRotatingScan::Create(),
@@ -192,7 +192,7 @@ TEST(Likelihood, UsesOnePointOutOfSoMany) {
   CSemanticContinuousMap map = roomMap();
   std::vector<Eigen::Vector3f> points(40, {100, 0, 0});  // all but every fourth one far outside
   for (std::size_t i = 0; i < points.size(); i += 4) points[i] = {2.9f, 0.1f, 0.1f};
-  const auto cloud = test::pointCloud(points, std::vector<float>(points.size(), 50));
+  const auto cloud = sample::pointCloud(points, std::vector<float>(points.size(), 50));
   map.likelihoodOptions.decimation = 4;
   const double fitting = map.computeObservationLikelihood(*cloud, CPose3D());
   EXPECT_GT(fitting, -0.5);
@@ -204,7 +204,7 @@ TEST(Likelihood, UsesOnePointOutOfSoMany) {
 CSemanticContinuousMap roadRoomAndWallRoom() {
   CSemanticContinuousMap map = sampleMap();
   const std::vector<Eigen::Vector3f> points = roomPoints();
-  map.insertObservation(*test::pointCloud(points, std::vector<float>(points.size(), 40)));
+  map.insertObservation(*sample::pointCloud(points, std::vector<float>(points.size(), 40)));
   map.insertObservation(*roomCloud(), CPose3D(20, 0, 0, 0, 0, 0));
   return map;
 }
@@ -234,7 +234,7 @@ TEST(Likelihood, LabelsTellRoomsOfTheSameShapeApart) {
 TEST(Likelihood, LabelsThatSayNothingDoNotCount) {
   CSemanticContinuousMap map = roadRoomAndWallRoom();
   const std::vector<Eigen::Vector3f> points = roomPoints();
-  const auto unknown = test::pointCloud(points, std::vector<float>(points.size(), 77));
+  const auto unknown = sample::pointCloud(points, std::vector<float>(points.size(), 77));
   const double without = map.computeObservationLikelihood(*unknown, CPose3D());
   map.likelihoodOptions.semantic_weight = 5;
   EXPECT_EQ(map.computeObservationLikelihood(*unknown, CPose3D()), without);
@@ -254,7 +254,7 @@ TEST(Likelihood, PointsWithoutAVoxelHaveAllClassesAlike) {
 TEST(Likelihood, BeamsDoNotPassThroughWalls) {
   CSemanticContinuousMap map = roomMap();
   // A point on the far wall, seen from a pose in front of the near one: the field is content.
-  const auto far_wall = test::pointCloud({{7.0f, 0.05f, 0.05f}}, {50});
+  const auto far_wall = sample::pointCloud({{7.0f, 0.05f, 0.05f}}, {50});
   const CPose3D in_front(-4.05, 0, 0, 0, 0, 0);
   map.likelihoodOptions.decimation = 1;
   EXPECT_GT(map.computeObservationLikelihood(*far_wall, in_front), -0.5);

@@ -32,7 +32,7 @@ class MapDefinition : public testing::Test {
                std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
-    std::ofstream(folder_ / "sample.yaml") << test::sampleLabels().toYaml();
+    std::ofstream(folder_ / "sample.yaml") << sample::sampleLabels().toYaml();
   }
 
   std::string file(const std::string& text) const {

@@ -16,11 +16,11 @@ namespace {
 using mrpt::poses::CPose3D;
 
 TEST(MapLikelihoodThreads, AgreeOnAMapThatNoneHasAskedYet) {
-  const auto observation = test::roomCloud();
+  const auto observation = sample::roomCloud();
   std::vector<CPose3D> poses;
   for (int i = 0; i < 16; ++i) poses.emplace_back(0.2 * i, 0.1 * i, 0, 0.02 * i, 0, 0);
   for (const LikelihoodMethod method : {LikelihoodMethod::Field, LikelihoodMethod::Beam}) {
-    CSemanticContinuousMap map = test::roomMap();
+    CSemanticContinuousMap map = sample::roomMap();
     map.likelihoodOptions.method = method;
     map.likelihoodOptions.semantic_weight = 1;
     const CSemanticContinuousMap& asked = map;

@@ -21,9 +21,9 @@ namespace csom {
 namespace {
 
 using mrpt::poses::CPose3D;
-using test::roomCloud;
-using test::roomMap;
-using test::roomPoints;
+using sample::roomCloud;
+using sample::roomMap;
+using sample::roomPoints;
 
 mrpt::maps::CSimplePointsMap roomPointsMap() {
   mrpt::maps::CSimplePointsMap points;
@@ -128,7 +128,7 @@ TEST(Matching, PairsOfDifferentClassesAreLeftOut) {
   std::vector<float> labels(points.size(), 50);                       // wall
   for (std::size_t i = 0; i < labels.size(); i += 4) labels[i] = 40;  // road
   for (std::size_t i = 1; i < labels.size(); i += 4) labels[i] = 77;  // says nothing
-  const auto cloud = test::pointCloud(points, labels);
+  const auto cloud = sample::pointCloud(points, labels);
   mrpt::maps::TMatchingParams params;
   params.maxDistForCorrespondence = 0.3f;
   mrpt::tfest::TMatchingPairList pairs;
@@ -138,8 +138,8 @@ TEST(Matching, PairsOfDifferentClassesAreLeftOut) {
   EXPECT_NEAR(static_cast<double>(pairs.size()), 0.75 * static_cast<double>(points.size()), 10);
   for (const auto& pair : pairs) EXPECT_NE(pair.localIdx % 4, 0u);
 
-  CSemanticContinuousMap road_room = test::sampleMap();
-  road_room.insertObservation(*test::pointCloud(points, std::vector<float>(points.size(), 40)));
+  CSemanticContinuousMap road_room = sample::sampleMap();
+  road_room.insertObservation(*sample::pointCloud(points, std::vector<float>(points.size(), 40)));
   map.determineMatching3D(&road_room, CPose3D(), pairs, params, results);
   EXPECT_EQ(pairs.size(), 0u);
   EXPECT_EQ(results.correspondencesRatio, 0);
@@ -164,7 +164,7 @@ mrpt::maps::CSimplePointsMap shiftedRoom() {
 CSemanticContinuousMap mapOf(const mrpt::maps::CSimplePointsMap& points) {
   mrpt::obs::CObservationPointCloud observation;
   observation.pointcloud = std::make_shared<mrpt::maps::CSimplePointsMap>(points);
-  CSemanticContinuousMap map = test::sampleMap();
+  CSemanticContinuousMap map = sample::sampleMap();
   map.insertionOptions.point_labels = PointLabels::None;
   map.insertObservation(observation);
   return map;

@@ -23,11 +23,11 @@ namespace {
 
 using mrpt::maps::CMultiMetricMap;
 using mrpt::poses::CPose3D;
-using test::laserScan;
-using test::pointCloud;
-using test::roomCloud;
-using test::roomMap;
-using test::sampleMap;
+using sample::laserScan;
+using sample::pointCloud;
+using sample::roomCloud;
+using sample::roomMap;
+using sample::sampleMap;
 
 static_assert(std::is_copy_constructible_v<CSemanticContinuousMap>);
 static_assert(std::is_copy_assignable_v<CSemanticContinuousMap>);
@@ -92,7 +92,7 @@ TEST(MetricMap, B9_aScanThatCannotBeInsertedIsRefusedAndNotThrown) {
   options.resolution = 0.064;
   options.free_space.mode = FreeSpace::Sampled;
   options.free_space.resolution = 0.001;  // 2^27 free samples are soon reached
-  CSemanticContinuousMap map(options, test::sampleLabels());
+  CSemanticContinuousMap map(options, sample::sampleLabels());
   map.insertionOptions.point_labels = PointLabels::ByIntensity;
   std::vector<Eigen::Vector3f> points;
   for (int i = 0; i < 20000; ++i) points.emplace_back(7.9f, 0.0001f * static_cast<float>(i), 0.0f);
@@ -154,7 +154,7 @@ TEST(MetricMap, TellsWhatBecameOfTheLastObservation) {
 TEST(MetricMap, EqualsADirectLoopOverTheCore) {
   CSemanticContinuousMap map = sampleMap();
   SemanticMap direct(map.map().options());
-  const LabelSet labels = test::sampleLabels();
+  const LabelSet labels = sample::sampleLabels();
   const LabelRules rules(labels, PointLabels::ByIntensity, "", "");
   SelfLabelledAdapter adapter;
   for (int i = 0; i < 5; ++i) {
@@ -255,7 +255,7 @@ TEST(MetricMap, SavesAMapFile) {
 CMultiMetricMap multiMap() {
   mrpt::maps::TSetOfMetricMapInitializers definitions;
   CSemanticContinuousMap::TMapDefinition definition;
-  definition.labels = test::sampleLabels();
+  definition.labels = sample::sampleLabels();
   definition.insertionOpts.point_labels = PointLabels::ByIntensity;
   definitions.push_back(definition);
   CMultiMetricMap maps;

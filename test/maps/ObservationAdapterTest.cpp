@@ -18,10 +18,10 @@ namespace {
 
 using mrpt::obs::CObservation3DRangeScan;
 using mrpt::poses::CPose3D;
-using test::laserScan;
-using test::pointCloud;
-using test::rangeCamera;
-using test::sampleLabels;
+using sample::laserScan;
+using sample::pointCloud;
+using sample::rangeCamera;
+using sample::sampleLabels;
 
 class ObservationAdapter : public testing::Test {
  protected:

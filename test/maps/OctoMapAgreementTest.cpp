@@ -40,7 +40,7 @@ class OctoMapAgreement : public testing::Test {
 
   /// The walls of a room of 6 x 4 x 2 m, seen by a camera at its middle.
   void insertRoom() {
-    const auto scan = test::velodyneRoom();
+    const auto scan = sample::velodyneRoom();
     insert(*scan, CPose3D(0.013, -0.017, 0.019, 0.3, 0, 0));
   }
 

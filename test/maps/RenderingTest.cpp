@@ -16,7 +16,7 @@ using mrpt::img::TColor;
 using mrpt::opengl::COctoMapVoxels;
 using mrpt::opengl::VOXEL_SET_FREESPACE;
 using mrpt::opengl::VOXEL_SET_OCCUPIED;
-using test::pointCloud;
+using sample::pointCloud;
 
 constexpr unsigned kUnknown = 2;
 
@@ -26,8 +26,8 @@ CSemanticContinuousMap blockMap(int edge, FreeSpace free_space = FreeSpace::None
   options.method = Method::SCsm;
   options.resolution = 0.1;
   options.free_space.mode = free_space;
-  options.number_of_classes = test::sampleLabels().numberOfClasses();
-  CSemanticContinuousMap map(options, test::sampleLabels());
+  options.number_of_classes = sample::sampleLabels().numberOfClasses();
+  CSemanticContinuousMap map(options, sample::sampleLabels());
   map.insertionOptions.point_labels = PointLabels::ByIntensity;
   std::vector<Eigen::Vector3f> points;
   std::vector<float> labels;

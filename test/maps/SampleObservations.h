@@ -15,7 +15,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace csom::test {
+namespace csom::sample {
 
 /// Free, road, wall and unlabelled; raw 40 is road, 50 wall, 0 ignored.
 inline LabelSet sampleLabels() {
@@ -138,4 +138,4 @@ inline mrpt::obs::CObservation2DRangeScan::Ptr laserScan(std::size_t rays = 181,
   return observation;
 }
 
-}  // namespace csom::test
+}  // namespace csom::sample

@@ -17,9 +17,9 @@ namespace {
 
 using mrpt::maps::CMultiMetricMap;
 using mrpt::poses::CPose3D;
-using test::roomCloud;
-using test::roomMap;
-using test::sampleMap;
+using sample::roomCloud;
+using sample::roomMap;
+using sample::sampleMap;
 
 std::string computeDigest(const CSemanticPointsMap& map) {
   return mapDigest(map.semanticMap().map());

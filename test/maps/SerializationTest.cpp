@@ -19,8 +19,8 @@
 namespace csom {
 namespace {
 
-using test::roomCloud;
-using test::roomMap;
+using sample::roomCloud;
+using sample::roomMap;
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -88,7 +88,7 @@ bool isReadOrRejected(const Bytes& bytes) {
   map.map().forEachVoxel([&](const VoxelIndex&, const DirichletVoxel& voxel) {
     EXPECT_LT(voxel.mostLikelyClass(), map.labels().numberOfClasses());
   });
-  EXPECT_FALSE(std::isnan(map.computeObservationLikelihood(*test::pointCloud({{1, 0, 0}}, {40}),
+  EXPECT_FALSE(std::isnan(map.computeObservationLikelihood(*sample::pointCloud({{1, 0, 0}}, {40}),
                                                            mrpt::poses::CPose3D())));
   return true;
 }
@@ -106,7 +106,7 @@ CSemanticContinuousMap fullMap() {
   map.warn_of_damaged = false;
   map.insertObservation(*roomCloud(0.3f), mrpt::poses::CPose3D(0.5, 0, 0, 0.1, 0, 0));
   map.insertObservation(mrpt::obs::CObservationPointCloud());
-  map.insertObservation(*test::pointCloud({{1e30f, 0, 0}}, {40}));
+  map.insertObservation(*sample::pointCloud({{1e30f, 0, 0}}, {40}));
   map.insertionOptions.unlabelled_class = "road";
   map.insertionOptions.scan_2d_class = "wall";
   map.likelihoodOptions.decimation = 3;

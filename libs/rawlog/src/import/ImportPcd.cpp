@@ -50,11 +50,12 @@ bool looksLikeLabels(const std::string& name) {
   return false;
 }
 
-/// "none; the fields are x, y, z, classification; they can be taken from classification".
-std::string whyNoLabels(const std::vector<std::string>& fields) {
+/// "none; the fields are x, y, z, classification; another one than label can be taken for them".
+void noteNoLabels(const std::vector<std::string>& fields, ImportSummary& summary) {
   const auto labels = std::find_if(fields.begin(), fields.end(), looksLikeLabels);
-  return "none; the fields are " + detail::joined(fields) + "; they can be taken from " +
-         (labels == fields.end() ? "another field" : detail::printable(*labels));
+  summary.labels = "none; the fields are " + detail::joined(fields) +
+                   "; another one than label can be taken for them";
+  summary.options = {"labels " + (labels == fields.end() ? std::string("FIELD") : *labels)};
 }
 
 class PcdFiles {
@@ -88,9 +89,10 @@ class PcdFiles {
 
   /// One line for each kind of fault, however many files have it.
   void addWarnings() const {
-    summary_.labels =
-        label_field_.empty() ? whyNoLabels(fields_) : "the field " + detail::quoted(label_field_);
-    if (label_field_.empty()) summary_.options = {"labels FIELD"};
+    if (label_field_.empty())
+      noteNoLabels(fields_, summary_);
+    else
+      summary_.labels = "the field " + detail::quoted(label_field_);
     if (no_returns_ > 0)
       summary_.warnings.push_back(std::to_string(no_returns_) +
                                   " points lie at exactly 0, 0, 0: they are taken for beams "
