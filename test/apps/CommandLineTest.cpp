@@ -49,7 +49,7 @@ TEST_F(CommandLine, LoadsNoLibraryThatFewCommandsNeed) {
 
 TEST_F(CommandLine, ListsTheWordsOfAChoice) {
   expectUsageError({"export", "m.csom", "--to", "obj", "-o", "m.obj"},
-                   "no format 'obj'; there are csv, ");
+                   "no format 'obj'; there are ply, ");
   expectUsageError({"export", "m.csom", "--to", "2", "-o", "m.csv"}, "no format '2'; there are");
   const auto upper_case = runCsom(
       folder_.path(), {"export", folder_ / "none.csom", "--to", "CSV", "-o", folder_ / "a"});

@@ -237,7 +237,7 @@ TEST_F(ExportCommand, ImpossibleOnesSayWhyAndLeaveNothing) {
       expectRefusal(folder_ / "empty.csom", format, file, {}, "the map is empty");
   }
   expectRefusal(map_, {"obj", "", {}}, folder_ / "out.obj", {},
-                "--to: no format 'obj'; there are csv, esdf, glb,");
+                "--to: no format 'obj'; there are ply, pcd, csv,");
   const std::string yaml = folder_ / "out.yaml";
   expectRefusal(map_, {"nav2", "", {}}, yaml, {}, "--traversable");
   expectRefusal(map_, {"nav2", "", {}}, yaml,

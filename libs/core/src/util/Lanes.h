@@ -18,12 +18,6 @@ using WordLanes = std::uint32_t __attribute__((vector_size(kLanes * sizeof(std::
 /// What structs of lanes must ask for: the compiler takes less where it compiles without AVX.
 constexpr std::size_t kLaneAlignment = sizeof(Lanes);
 
-inline Lanes squareRoot(const Lanes& v) {
-  Lanes root;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) root[lane] = std::sqrt(v[lane]);
-  return root;
-}
-
 // Functions marked with it are compiled for AVX2 too, and the processor chooses when the program
 // starts: one binary runs everywhere. No fused multiply-add in either, so the bits are the same.
 // Sanitizers intercept calls before such a choice can be made. Where instructions are counted they
@@ -41,7 +35,14 @@ inline Lanes squareRoot(const Lanes& v) {
 #else
 #define CSOM_OF_ONE_BINARY
 #endif
-// What such a function calls must become part of it, to be compiled for the same processor.
+// What such a function calls must become part of it, to be compiled for the same processor: also
+// where nothing is optimised, as vectors are passed in other registers there.
 #define CSOM_INLINE inline __attribute__((always_inline))
+
+CSOM_INLINE Lanes squareRoot(const Lanes& v) {
+  Lanes root;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) root[lane] = std::sqrt(v[lane]);
+  return root;
+}
 
 }  // namespace csom::detail

@@ -15,7 +15,7 @@ namespace csom {
 /// side: the processor need not wait for one sum after the other. `Float` is float or a SIMD vector
 /// of floats. t ≥ 0.
 template <class Float>
-inline Float sparseKernel(const Float& t) {
+__attribute__((always_inline)) inline Float sparseKernel(const Float& t) {
   constexpr std::array<float, 7> c{1.0F,
                                    2.499993085861206F,
                                    2.7302396297454834F,
@@ -35,7 +35,7 @@ inline Float sparseKernel(const Float& t) {
 
 /// 1 − t for t in [0, 1), 0 from there on, as in the paper's published code.
 template <class Float>
-inline Float linearKernel(const Float& t) {
+__attribute__((always_inline)) inline Float linearKernel(const Float& t) {
   const Float rest = 1.0F - t;
   return rest > 0.0F ? rest : Float{};
 }
