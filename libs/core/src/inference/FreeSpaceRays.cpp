@@ -37,7 +37,7 @@ struct BeamCursor {
     const bool by_z = (x->at <= y->at ? x->at : y->at) > z->at;
     const bool by_x = !by_z & (x->at <= y->at);
     x += by_x ? 1 : 0;
-    y += by_x | by_z ? 0 : 1;
+    y += (by_x | by_z) ? 0 : 1;
     z += by_z ? 1 : 0;
   }
 };

@@ -21,9 +21,11 @@ constexpr std::size_t kLaneAlignment = sizeof(Lanes);
 // Functions marked with it are compiled for AVX2 too, and the processor chooses when the program
 // starts: one binary runs everywhere. No fused multiply-add in either, so the bits are the same.
 // Sanitizers intercept calls before such a choice can be made. Where instructions are counted they
-// must be the same on every processor: CSOM_NO_PROCESSOR_DISPATCH.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__) && !defined(CSOM_NO_PROCESSOR_DISPATCH)
+// must be the same on every processor: CSOM_NO_PROCESSOR_DISPATCH. Clang refuses vectors as results
+// in such functions, inlined or not: its code is that of any processor.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(CSOM_NO_PROCESSOR_DISPATCH)
 #define CSOM_EVERY_PROCESSOR __attribute__((target_clones("avx2", "default")))
 #else
 #define CSOM_EVERY_PROCESSOR
