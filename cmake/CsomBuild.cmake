@@ -41,9 +41,6 @@ endfunction()
 # whichever folder, links what that one needs. (CMake 3.24 has find_package(… GLOBAL).)
 macro(csom_find_package)
   find_package(${ARGN} REQUIRED)
-  csom_globalize_imported_targets()
-endmacro()
-macro(csom_globalize_imported_targets)
   get_property(csom_imported DIRECTORY PROPERTY IMPORTED_TARGETS)
   foreach(csom_target IN LISTS csom_imported)
     set_target_properties(${csom_target} PROPERTIES IMPORTED_GLOBAL TRUE)
@@ -85,7 +82,7 @@ function(csom_add_module name)
   endif()
 endfunction()
 
-# csom_copy_data(labels core): config/labels/*.yaml beside the build's programs, where an installed
+# csom_copy_data(labels io): config/labels/*.yaml beside the build's programs, where an installed
 # prefix has them too; built with the library.
 function(csom_copy_data folder library)
   file(GLOB files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/config/${folder}/*.yaml)

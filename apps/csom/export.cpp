@@ -57,6 +57,13 @@ std::string countText(std::size_t count, const char* what) {
   return std::to_string(count) + " " + what;
 }
 
+/// Formats that need nothing but a file.
+template <std::size_t (*kWrite)(const VoxelSelection&, const LabelSet&, const std::string&)>
+std::string writeVoxels(const ExportArguments& arguments, const VoxelSelection& voxels,
+                        const LabelSet& labels) {
+  return countText(kWrite(voxels, labels, arguments.output), "voxels");
+}
+
 NavigationGrid navigationGrid(const ExportArguments& arguments, const VoxelSelection& voxels,
                               const LabelSet& labels) {
   NavigationOptions options = arguments.navigation;
@@ -99,28 +106,11 @@ const std::vector<ExportFormat>& formats() {
   static const std::vector<ExportFormat> all{
       {"ply",
        "points with colour, class, probability, variance: MeshLab, CloudCompare",
-       [](const auto& a, const auto& voxels, const auto& labels) {
-         return countText(writePly(voxels, labels, a.output), "voxels");
-       },
+       writeVoxels<writePly>,
        {}},
-      {"pcd",
-       "points x y z rgb label, in single precision: PCL",
-       [](const auto& a, const auto& voxels, const auto& labels) {
-         return countText(writePcd(voxels, labels, a.output), "voxels");
-       },
-       {}},
-      {"csv",
-       "x,y,z,class_id,class_name,probability,variance,evidence",
-       [](const auto& a, const auto& voxels, const auto& labels) {
-         return countText(writeCsv(voxels, labels, a.output), "voxels");
-       },
-       {}},
-      {"npz",
-       "the same as NumPy arrays",
-       [](const auto& a, const auto& voxels, const auto& labels) {
-         return countText(writeNpz(voxels, labels, a.output), "voxels");
-       },
-       {}},
+      {"pcd", "points x y z rgb label, in single precision: PCL", writeVoxels<writePcd>, {}},
+      {"csv", "x,y,z,class_id,class_name,probability,variance,evidence", writeVoxels<writeCsv>, {}},
+      {"npz", "the same as NumPy arrays", writeVoxels<writeNpz>, {}},
       {"octomap",
        ".ot: occupancy and colours of classes; .bt: occupancy. With free space",
        [](const auto& a, const auto& voxels, const auto& labels) {
@@ -135,24 +125,14 @@ const std::vector<ExportFormat>& formats() {
        "the same cells as MRPT's COccupancyGridMap2D",
        writeGridmapFile,
        {"--traversable", "--obstacle-band", "--robot-height"}},
-      {"points",
-       "points with class ids as MRPT's CPointsMapXYZI",
-       [](const auto& a, const auto& voxels, const auto& labels) {
-         return countText(writePointMap(voxels, labels, a.output), "voxels");
-       },
-       {}},
+      {"points", "points with class ids as MRPT's CPointsMapXYZI", writeVoxels<writePointMap>, {}},
       {"glb",
        "mesh of the surface, a material a class: web, Blender",
        [](const auto& a, const auto& voxels, const auto& labels) {
          return countText(writeGlb(voxels, labels, a.output), "triangles");
        },
        {}},
-      {"vdb",
-       "grids of class, occupancy and variance: OpenVDB",
-       [](const auto& a, const auto& voxels, const auto& labels) {
-         return countText(writeVdb(voxels, labels, a.output), "voxels");
-       },
-       {}},
+      {"vdb", "grids of class, occupancy and variance: OpenVDB", writeVoxels<writeVdb>, {}},
       {"esdf",
        "distances to the nearest obstacle as NumPy arrays",
        writeDistances,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page: well-formed, self-contained, safe, and saying what happened.
+#include <csom/report/Html.h>
 #include <csom/report/HtmlReport.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include <csom/report/Html.h>
 #include "SampleMaps.h"
 
 namespace csom {

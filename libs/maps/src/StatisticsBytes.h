@@ -4,6 +4,7 @@
 
 #include <csom/core/Statistic.h>
 
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <stdexcept>
@@ -39,9 +40,12 @@ void assignFigures(Statistics& statistics, const std::string& prefix,
         } else if constexpr (std::is_arithmetic_v<Field>) {
           const auto figure = figures.find(prefix + info.key);
           if (figure == figures.end()) return;
-          if (!(figure->second >= 0) || figure->second > 9e15)
+          constexpr double kMaxExact = 9007199254740992;  // 2⁵³
+          const double value = figure->second;
+          if (!(value >= 0 && value <= kMaxExact) ||
+              (std::is_integral_v<Field> && value != std::floor(value)))
             throw std::runtime_error("serialised map: a count that cannot be");
-          field = static_cast<Field>(figure->second);
+          field = static_cast<Field>(value);
           figures.erase(figure);
         }
       },

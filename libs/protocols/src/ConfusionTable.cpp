@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConfusionTable.h"
 
+#include <csom/report/Html.h>
+
 #include <cstdio>
 #include <vector>
-
-#include <csom/report/Html.h>
 
 namespace csom {
 namespace {

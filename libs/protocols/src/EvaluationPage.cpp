@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csom/protocols/EvaluationPage.h>
 #include <csom/report/Chart.h>
+#include <csom/report/Html.h>
 #include <csom/report/HtmlPage.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <functional>
 #include <sstream>
 
-#include <csom/report/Html.h>
 #include "ConfusionTable.h"
 
 namespace csom {

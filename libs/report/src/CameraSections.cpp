@@ -3,13 +3,12 @@
 #include "CameraSections.h"
 
 #include <csom/report/Format.h>
+#include <csom/report/Html.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <set>
-
-#include <csom/report/Html.h>
 
 namespace csom {
 
@@ -52,7 +51,8 @@ void writeLegend(std::ostream& page, const std::set<ClassId>& classes, const Map
 void writeCameras(std::ostream& page, const std::vector<CameraStatistics::Camera>& cameras) {
   page << "<div class=\"wide\"><table><thead><tr><th class=\"text\">camera</th>"
        << "<th class=\"text\">labels from</th>";
-  ImageCounts::visit([&](const StatisticInfo& info) { page << "<th>" << info.words << "</th>"; });
+  ImageCounts::visit(
+      [&](const StatisticInfo& info) { page << "<th>" << escapeHtml(info.words) << "</th>"; });
   page << "<th>not needed</th></tr></thead><tbody>\n";
   for (const CameraStatistics::Camera& camera : cameras) {
     page << "<tr><td class=\"text\"><code>" << escapeHtml(camera.sensor_label)
@@ -77,8 +77,9 @@ void writePoints(std::ostream& page, const CameraPointCounts& points) {
       [&](const StatisticInfo& info, const std::size_t& count) {
         const bool in_view = &count != &points.outside_view && &count != &points.kept_unlabelled;
         if (count == 0) return;
-        page << "<tr><td class=\"text\">" << info.words << "</td><td>" << formatCount(count)
-             << "</td><td>" << (in_view ? shareOf(count, points.inView()) : "") << "</td></tr>\n";
+        page << "<tr><td class=\"text\">" << escapeHtml(info.words) << "</td><td>"
+             << formatCount(count) << "</td><td>"
+             << (in_view ? shareOf(count, points.inView()) : "") << "</td></tr>\n";
       },
       points);
   page << "</tbody></table></div>\n";
@@ -97,8 +98,8 @@ void writeScans(std::ostream& page, const CameraStatistics& labels) {
       [&](const StatisticInfo& info, const std::size_t& count) {
         if (count == 0 && &count != &labels.scans.labelled) return;
         const bool of_these = &count == &labels.scans.late;
-        page << (of_these ? formatCount(count) : formatCount(count, "scan")) << " " << info.words
-             << ". ";
+        page << (of_these ? formatCount(count) : formatCount(count, "scan")) << " "
+             << escapeHtml(info.words) << ". ";
       },
       labels.scans);
   if (labels.clock_restarts > 0)

@@ -2,14 +2,13 @@
 // The data of charts as JSON for the script, and as tables for everybody else.
 #include <csom/report/Chart.h>
 #include <csom/report/Format.h>
+#include <csom/report/Html.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
-
-#include <csom/report/Html.h>
 
 namespace csom {
 

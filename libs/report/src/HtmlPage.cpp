@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Puts a page together and says which scripts may run in it.
+#include <csom/report/Html.h>
 #include <csom/report/HtmlPage.h>
 
 #include <vector>
 
-#include <csom/report/Html.h>
 #include "WebAsset.h"
 
 namespace csom {

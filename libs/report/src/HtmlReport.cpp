@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The report page, section by section.
 #include <csom/report/Format.h>
+#include <csom/report/Html.h>
 #include <csom/report/HtmlPage.h>
 #include <csom/report/HtmlReport.h>
 
 #include <algorithm>
 #include <sstream>
 
-#include <csom/report/Html.h>
 #include "CameraSections.h"
 #include "TimingSection.h"
 #include "Viewer.h"

@@ -2,9 +2,10 @@
 // Markup, header and voxels of the viewer.
 #include "Viewer.h"
 
+#include <csom/report/Html.h>
+
 #include <string>
 
-#include <csom/report/Html.h>
 #include "ViewerModel.h"
 #include "WebAsset.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "WebAsset.h"
 
+#include <csom/report/Html.h>
+
 #include <cstdint>
 #include <vector>
-
-#include <csom/report/Html.h>
 
 namespace csom {
 

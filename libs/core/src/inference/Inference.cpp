@@ -5,9 +5,7 @@
 
 #include <algorithm>
 
-namespace csom {
-
-namespace detail {
+namespace csom::detail {
 
 const MethodEntry& entryOf(Method method) {
   const auto entry = std::find_if(kMethods.begin(), kMethods.end(),
@@ -27,24 +25,4 @@ ScanIncrements inferIncrements(const PreparedScan& scan, const Options& options,
   return increments;
 }
 
-}  // namespace detail
-
-std::string toString(Method value) {
-  return detail::entryOf(value).word;
-}
-
-std::string acceptedWords(Method /*any*/) {
-  std::string accepted;
-  for (const detail::MethodEntry& entry : detail::kMethods)
-    accepted += (accepted.empty() ? "" : " | ") + std::string(entry.word);
-  return accepted;
-}
-
-void parse(const std::string& key, const std::string& text, Method& value) {
-  const auto entry = std::find_if(detail::kMethods.begin(), detail::kMethods.end(),
-                                  [&](const detail::MethodEntry& e) { return text == e.word; });
-  if (entry == detail::kMethods.end()) detail::rejectOption(key, text, acceptedWords(value));
-  value = entry->method;
-}
-
-}  // namespace csom
+}  // namespace csom::detail

@@ -41,10 +41,14 @@ constexpr std::size_t kLaneAlignment = sizeof(Lanes);
 // where nothing is optimised, as vectors are passed in other registers there.
 #define CSOM_INLINE inline __attribute__((always_inline))
 
+// By reference, which is the same everywhere, so that the compiler may choose where to inline it.
+inline void takeSquareRoots(const Lanes& v, Lanes& roots) {
+  for (std::size_t lane = 0; lane < kLanes; ++lane) roots[lane] = std::sqrt(v[lane]);
+}
 CSOM_INLINE Lanes squareRoot(const Lanes& v) {
-  Lanes root;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) root[lane] = std::sqrt(v[lane]);
-  return root;
+  Lanes roots;
+  takeSquareRoots(v, roots);
+  return roots;
 }
 
 }  // namespace csom::detail

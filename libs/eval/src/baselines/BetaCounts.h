@@ -2,7 +2,10 @@
 // The Beta posterior of a voxel's occupancy, as Bayesian kernel inference keeps it.
 #pragma once
 
+#include <csom/core/Grid.h>
 #include <csom/eval/Mapper.h>
+
+#include "baselines/SparseVoxels.h"
 
 namespace csom::detail {
 
@@ -23,6 +26,16 @@ inline VoxelEstimate occupancyEstimate(double occupancy, double occupied_thresho
           occupancy,
           static_cast<ClassId>(occupancy > occupied_threshold ? 1 : kFreeClass),
           {1 - occupancy, occupancy}};
+}
+
+/// What Beta counts say of the voxel at a point.
+inline VoxelEstimate betaEstimate(const SparseVoxels<BetaCounts>& voxels, const Grid& grid,
+                                  const Eigen::Vector3d& point, double prior,
+                                  double occupied_threshold) {
+  if (!grid.contains(point)) return {};
+  const BetaCounts* counts = voxels.find(grid.voxelAt(point));
+  if (counts == nullptr || !counts->known()) return {};
+  return occupancyEstimate(counts->occupancy(prior), occupied_threshold);
 }
 
 }  // namespace csom::detail

@@ -50,11 +50,8 @@ void BgkOctoMapMapper::addSegment(const Eigen::Vector3d& from, const Eigen::Vect
 }
 
 VoxelEstimate BgkOctoMapMapper::at(const Eigen::Vector3d& center) const {
-  if (!grid_.contains(center)) return {};
-  const BetaCounts* counts = voxels_->find(grid_.voxelAt(center));
-  if (counts == nullptr || !counts->known()) return {};
-  return detail::occupancyEstimate(counts->occupancy(parameters_.prior),
-                                   parameters_.occupied_threshold);
+  return detail::betaEstimate(*voxels_, grid_, center, parameters_.prior,
+                              parameters_.occupied_threshold);
 }
 
 }  // namespace csom

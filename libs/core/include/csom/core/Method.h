@@ -3,9 +3,11 @@
 #pragma once
 
 #include <csom/core/CountIncrements.h>
+#include <csom/core/EnumWords.h>
 
 #include <array>
-#include <string>
+#include <cstddef>
+#include <utility>
 
 namespace csom {
 
@@ -32,20 +34,24 @@ struct MethodEntry {
   InferenceFunction* infer;
 };
 
-constexpr std::array<MethodEntry, 4> kMethods{{
-    {Method::SurfaceCsom, "surface-csom", false, inferSurfaceCsom},
-    {Method::SeeCsom, "see-csom", false, inferSeeCsom},
-    {Method::SBki, "s-bki", false, inferSeeCsom},  // without both entropies, see Options
-    {Method::SCsm, "s-csm", true, inferSCsm},
-}};
+constexpr std::array kMethods{
+    MethodEntry{Method::SurfaceCsom, "surface-csom", false, inferSurfaceCsom},
+    MethodEntry{Method::SeeCsom, "see-csom", false, inferSeeCsom},
+    MethodEntry{Method::SBki, "s-bki", false, inferSeeCsom},  // without both entropies, see Options
+    MethodEntry{Method::SCsm, "s-csm", true, inferSCsm},
+};
 
 const MethodEntry& entryOf(Method method);
 
+template <std::size_t... I>
+constexpr EnumWords<Method, sizeof...(I)> methodWords(std::index_sequence<I...>) {
+  return {{{kMethods[I].method, kMethods[I].word}...}};
+}
+
 }  // namespace detail
 
-/// "surface-csom", "see-csom" … Parsing throws OptionError with the accepted words.
-std::string toString(Method value);
-std::string acceptedWords(Method any);
-void parse(const std::string& key, const std::string& text, Method& value);
+template <>
+inline constexpr EnumWords<Method, detail::kMethods.size()> kWords<Method> =
+    detail::methodWords(std::make_index_sequence<detail::kMethods.size()>());
 
 }  // namespace csom

@@ -15,11 +15,11 @@ namespace csom {
 ///     }
 ///
 /// Whatever writes, reads, adds or shows statistics goes through that list (several at once, where
-/// they are added), so a new figure is a field and a line. Fields are counts, numbers, texts, or
-/// structs of statistics themselves.
+/// they are added), so a new figure is a field and a line. Fields are counts, numbers, or structs
+/// of statistics themselves.
 struct StatisticInfo {
-  const char* key;    ///< in files
-  const char* words;  ///< in reports; HTML
+  const char* key;         ///< in files
+  const char* words = "";  ///< in tables of reports; empty: no table has it
 };
 
 namespace detail {

@@ -16,27 +16,23 @@ struct LabelCounts {
   std::size_t labelled = 0;      ///< had a class of their own
   std::size_t unlabelled = 0;    ///< had no label and received the class for unlabelled points
   std::size_t kept_unknown = 0;  ///< had a label of no use and received the same class
-  std::size_t missing = 0;
-  std::size_t unknown = 0;
-  std::size_t ignored = 0;
-  std::size_t ambiguous = 0;
+  std::size_t missing = 0;       ///< had none and were dropped
+  std::size_t unknown = 0;       ///< had one that is no class of a point and were dropped
+  std::size_t ignored = 0;       ///< the label set says so
+  std::size_t ambiguous = 0;     ///< had several and were dropped
 
   std::size_t dropped() const { return missing + unknown + ignored + ambiguous; }
   std::size_t keptUnlabelled() const { return unlabelled + kept_unknown; }
 
   template <class Visitor, class... Selves>
   static void visit(Visitor&& visitor, Selves&... s) {
-    visitor(StatisticInfo{"labelled", "had a class of their own"}, s.labelled...);
-    visitor(StatisticInfo{"unlabelled", "had no label and were kept as unlabelled"},
-            s.unlabelled...);
-    visitor(StatisticInfo{"kept_unknown", "had a label of no use and were kept as unlabelled"},
-            s.kept_unknown...);
-    visitor(StatisticInfo{"missing", "had no label"}, s.missing...);
-    visitor(StatisticInfo{"unknown",
-                          "had a label that the label set does not know, or that means free"},
-            s.unknown...);
-    visitor(StatisticInfo{"ignored", "had a label that the label set ignores"}, s.ignored...);
-    visitor(StatisticInfo{"ambiguous", "had several labels"}, s.ambiguous...);
+    visitor(StatisticInfo{"labelled"}, s.labelled...);
+    visitor(StatisticInfo{"unlabelled"}, s.unlabelled...);
+    visitor(StatisticInfo{"kept_unknown"}, s.kept_unknown...);
+    visitor(StatisticInfo{"missing"}, s.missing...);
+    visitor(StatisticInfo{"unknown"}, s.unknown...);
+    visitor(StatisticInfo{"ignored"}, s.ignored...);
+    visitor(StatisticInfo{"ambiguous"}, s.ambiguous...);
   }
 };
 
@@ -62,9 +58,9 @@ struct RegistrationStatistics {
 
   template <class Visitor, class... Selves>
   static void visit(Visitor&& visitor, Selves&... s) {
-    visitor(StatisticInfo{"scans", "scans registered"}, s.scans...);
-    visitor(StatisticInfo{"doubtful", "fit poorly"}, s.doubtful...);
-    visitor(StatisticInfo{"seconds", "seconds"}, s.seconds...);
+    visitor(StatisticInfo{"scans"}, s.scans...);
+    visitor(StatisticInfo{"doubtful"}, s.doubtful...);
+    visitor(StatisticInfo{"seconds"}, s.seconds...);
   }
 };
 

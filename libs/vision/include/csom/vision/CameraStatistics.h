@@ -41,8 +41,7 @@ struct CameraScanCounts {
   template <class Visitor, class... Selves>
   static void visit(Visitor&& visitor, Selves&... s) {
     visitor(StatisticInfo{"labelled", "got labels from images"}, s.labelled...);
-    visitor(StatisticInfo{"without_image",
-                          "had no image near enough in time (<code>max_time_offset</code>)"},
+    visitor(StatisticInfo{"without_image", "had no image near enough in time (max_time_offset)"},
             s.without_image...);
     visitor(StatisticInfo{"late",
                           "of these came when the images of their time had been given up already"},
@@ -95,9 +94,8 @@ struct CameraPointCounts {
     visitor(StatisticInfo{"outside_view", "in the view of no camera"}, s.outside_view...);
     visitor(StatisticInfo{"hidden", "hidden from the camera by something nearer"}, s.hidden...);
     visitor(StatisticInfo{"at_edge", "at a label border where the depth jumps"}, s.at_edge...);
-    visitor(
-        StatisticInfo{"low_confidence", "less sure of its class than <code>min_confidence</code>"},
-        s.low_confidence...);
+    visitor(StatisticInfo{"low_confidence", "less sure of its class than min_confidence"},
+            s.low_confidence...);
     visitor(StatisticInfo{"ignored", "on something that the label set ignores"}, s.ignored...);
     visitor(StatisticInfo{"unknown", "on something that the label set does not know"},
             s.unknown...);
@@ -119,10 +117,9 @@ struct CameraSeconds {
 
   template <class Visitor, class... Selves>
   static void visit(Visitor&& visitor, Selves&... s) {
-    visitor(StatisticInfo{"network", "the network alone"}, s.network...);
-    visitor(StatisticInfo{"image_decoding", "decoding images"}, s.image_decoding...);
-    visitor(StatisticInfo{"labelling", "projecting points and judging what is visible"},
-            s.labelling...);
+    visitor(StatisticInfo{"network"}, s.network...);
+    visitor(StatisticInfo{"image_decoding"}, s.image_decoding...);
+    visitor(StatisticInfo{"labelling"}, s.labelling...);
   }
 };
 
@@ -151,11 +148,10 @@ struct CameraStatistics {
   /// All but the cameras one by one.
   template <class Visitor, class... Selves>
   static void visit(Visitor&& visitor, Selves&... s) {
-    visitor(StatisticInfo{"scans", "scans"}, s.scans...);
-    visitor(StatisticInfo{"clock_restarts", "times at which the time stamps went back"},
-            s.clock_restarts...);
-    visitor(StatisticInfo{"points", "points"}, s.points...);
-    visitor(StatisticInfo{"seconds", "seconds"}, s.seconds...);
+    visitor(StatisticInfo{"scans"}, s.scans...);
+    visitor(StatisticInfo{"clock_restarts"}, s.clock_restarts...);
+    visitor(StatisticInfo{"points"}, s.points...);
+    visitor(StatisticInfo{"seconds"}, s.seconds...);
   }
 };
 
