@@ -19,12 +19,25 @@ if(PROJECT_IS_TOP_LEVEL)
   find_program(CCACHE_PROGRAM ccache)
   if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+    if(CSOM_PRECOMPILE_HEADERS)
+      # What ccache wants for precompiled headers.
+      set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
+    endif()
   endif()
 endif()
 
 # The presets make errors of them (CMAKE_COMPILE_WARNING_AS_ERROR).
 add_library(csom_warnings INTERFACE)
 target_compile_options(csom_warnings INTERFACE -Wall -Wextra -Wconversion -Wshadow)
+
+# csom_precompile(csom-maps <Eigen/Geometry> …): half of the time of a first build goes into headers of
+# others. Sources include what they need all the same: a build without the switch says so.
+function(csom_precompile target)
+  if(CSOM_PRECOMPILE_HEADERS)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  endif()
+endfunction()
 
 # csom_part(EXPORTS NEEDS IO …): refuses a choice of CSOM_BUILD_… that cannot be.
 function(csom_part name)
@@ -47,10 +60,10 @@ macro(csom_find_package)
   endforeach()
 endmacro()
 
-# csom_add_library(core LINK … [PRIVATE_LINK …] [SHARED] [SOURCES …]): all of src/, and SOURCES that
-# lie elsewhere.
+# csom_add_library(core LINK … [PRIVATE_LINK …] [SHARED] [SOURCES …] [PRECOMPILE …]): all of src/, and
+# SOURCES that lie elsewhere. PRECOMPILE: headers for csom_precompile().
 function(csom_add_library name)
-  cmake_parse_arguments(arg "SHARED" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(arg "SHARED" "" "SOURCES;LINK;PRIVATE_LINK;PRECOMPILE" ${ARGN})
   set(kind STATIC)
   if(arg_SHARED)
     set(kind SHARED)
@@ -66,6 +79,9 @@ function(csom_add_library name)
   target_compile_features(csom-${name} PUBLIC cxx_std_17)
   target_link_libraries(csom-${name} PUBLIC ${arg_LINK} PRIVATE ${arg_PRIVATE_LINK} $<BUILD_INTERFACE:csom_warnings>)
   set_property(GLOBAL APPEND PROPERTY CSOM_LIBRARIES csom-${name})
+  if(arg_PRECOMPILE)
+    csom_precompile(csom-${name} ${arg_PRECOMPILE})
+  endif()
 endfunction()
 
 # csom_add_module(vdb OF exports SOURCES … LINK …): csom-vdb.so, which csom::exports loads when it is
