@@ -2,7 +2,16 @@
 // A loop over independent pieces of work on a given number of threads.
 #pragma once
 
-#ifdef __SANITIZE_THREAD__
+// GCC's word for it, and Clang's.
+#if defined(__SANITIZE_THREAD__)
+#define CSOM_THREAD_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define CSOM_THREAD_SANITIZER
+#endif
+#endif
+
+#ifdef CSOM_THREAD_SANITIZER
 #include <algorithm>
 #include <future>
 #include <thread>
@@ -20,7 +29,7 @@
 
 namespace csom::detail {
 
-#ifdef __SANITIZE_THREAD__
+#ifdef CSOM_THREAD_SANITIZER
 
 /// ThreadSanitizer cannot see how oneTBB, which is not compiled for it, hands work over: it would
 /// report what is no race, or have to be told to ignore all that TBB calls, our own work included.
@@ -52,7 +61,7 @@ void workOnThreads(std::size_t size, const Work& work) {
 /// loop. `threads` as in Options: 1 stays on the calling thread, 0 takes all processors.
 template <class Work>
 void withThreads([[maybe_unused]] int threads, const Work& work) {
-#ifndef __SANITIZE_THREAD__
+#ifndef CSOM_THREAD_SANITIZER
   if (threads != 1) {
     // More threads than processors only on demand: TBB refuses them otherwise.
     std::optional<tbb::global_control> more_threads;
@@ -75,7 +84,7 @@ void parallelRanges(std::size_t size, int threads, const Work& work) {
     work(std::size_t{0}, size);
     return;
   }
-#ifdef __SANITIZE_THREAD__
+#ifdef CSOM_THREAD_SANITIZER
   workOnThreads(size, threads, work);
 #else
   workOnThreads(size, work);
