@@ -22,6 +22,7 @@ if(PROJECT_IS_TOP_LEVEL)
     if(CSOM_PRECOMPILE_HEADERS)
       # What ccache wants for precompiled headers.
       set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
+      add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>)
     endif()
   endif()
 endif()
@@ -30,12 +31,11 @@ endif()
 add_library(csom_warnings INTERFACE)
 target_compile_options(csom_warnings INTERFACE -Wall -Wextra -Wconversion -Wshadow)
 
-# csom_precompile(csom-maps <Eigen/Geometry> …): half of the time of a first build goes into headers of
-# others. Sources include what they need all the same: a build without the switch says so.
+# csom_precompile(csom-maps <Eigen/Geometry> …): large headers of others, for CSOM_PRECOMPILE_HEADERS.
+# Sources include what they need all the same: a build without that switch says so.
 function(csom_precompile target)
   if(CSOM_PRECOMPILE_HEADERS)
     target_precompile_headers(${target} PRIVATE ${ARGN})
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
   endif()
 endfunction()
 

@@ -85,7 +85,6 @@ function(csom_precompile_test target libraries)
     csom_precompile(${of} ${headers})
   endif()
   target_precompile_headers(${target} REUSE_FROM ${of})
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
 
 # csom_add_other_tests(core [WITHOUT …Test …] LINK … …): every test/core/…Test.cpp that has not been

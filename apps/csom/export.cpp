@@ -50,7 +50,7 @@ struct ExportFormat {
   const char* help;
   WriteExport* write;
   /// Options of the command that it alone takes, or shares with others.
-  std::vector<std::string> options;
+  std::vector<std::string> options = {};
 };
 
 std::string countText(std::size_t count, const char* what) {
@@ -104,19 +104,15 @@ std::string writeDistances(const ExportArguments& arguments, const VoxelSelectio
 /// All formats, in the order of the help.
 const std::vector<ExportFormat>& formats() {
   static const std::vector<ExportFormat> all{
-      {"ply",
-       "points with colour, class, probability, variance: MeshLab, CloudCompare",
-       writeVoxels<writePly>,
-       {}},
-      {"pcd", "points x y z rgb label, in single precision: PCL", writeVoxels<writePcd>, {}},
-      {"csv", "x,y,z,class_id,class_name,probability,variance,evidence", writeVoxels<writeCsv>, {}},
-      {"npz", "the same as NumPy arrays", writeVoxels<writeNpz>, {}},
-      {"octomap",
-       ".ot: occupancy and colours of classes; .bt: occupancy. With free space",
+      {"ply", "points with colour, class, probability, variance: MeshLab, CloudCompare",
+       writeVoxels<writePly>},
+      {"pcd", "points x y z rgb label, in single precision: PCL", writeVoxels<writePcd>},
+      {"csv", "x,y,z,class_id,class_name,probability,variance,evidence", writeVoxels<writeCsv>},
+      {"npz", "the same as NumPy arrays", writeVoxels<writeNpz>},
+      {"octomap", ".ot: occupancy and colours of classes; .bt: occupancy. With free space",
        [](const auto& a, const auto& voxels, const auto& labels) {
          return countText(writeOctomap(voxels, labels, a.output), "occupied voxels");
-       },
-       {}},
+       }},
       {"nav2",
        ".yaml and .pgm of ROS's map_server, and a .png of classes",
        writeNav2,
@@ -125,14 +121,12 @@ const std::vector<ExportFormat>& formats() {
        "the same cells as MRPT's COccupancyGridMap2D",
        writeGridmapFile,
        {"--traversable", "--obstacle-band", "--robot-height"}},
-      {"points", "points with class ids as MRPT's CPointsMapXYZI", writeVoxels<writePointMap>, {}},
-      {"glb",
-       "mesh of the surface, a material a class: web, Blender",
+      {"points", "points with class ids as MRPT's CPointsMapXYZI", writeVoxels<writePointMap>},
+      {"glb", "mesh of the surface, a material a class: web, Blender",
        [](const auto& a, const auto& voxels, const auto& labels) {
          return countText(writeGlb(voxels, labels, a.output), "triangles");
-       },
-       {}},
-      {"vdb", "grids of class, occupancy and variance: OpenVDB", writeVoxels<writeVdb>, {}},
+       }},
+      {"vdb", "grids of class, occupancy and variance: OpenVDB", writeVoxels<writeVdb>},
       {"esdf",
        "distances to the nearest obstacle as NumPy arrays",
        writeDistances,

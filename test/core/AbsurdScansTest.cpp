@@ -9,12 +9,13 @@
 #include <random>
 
 #include "core/RandomScans.h"
+#include "util/Sanitizers.h"
 
 namespace csom::test {
 namespace {
 
 // AddressSanitizer takes ten times as long, and keeps what was freed for a while.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef CSOM_ADDRESS_SANITIZED
 constexpr std::size_t kMany = 1'000'000;
 constexpr std::size_t kMaxBytes = 1000 * kMany;
 #else

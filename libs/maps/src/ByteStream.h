@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -13,6 +14,7 @@
 namespace csom {
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "serialised maps are little-endian");
+static_assert(sizeof(std::size_t) == sizeof(std::uint64_t), "and have counts of 64 bits");
 
 class ByteWriter {
  public:
@@ -24,6 +26,18 @@ class ByteWriter {
   void text(const std::string& value) {
     number(static_cast<std::uint32_t>(value.size()));
     raw(value.data(), value.size());
+  }
+  /// Numbers or texts by their names.
+  template <class Value>
+  void named(const std::map<std::string, Value>& values) {
+    number(static_cast<std::uint64_t>(values.size()));
+    for (const auto& [name, value] : values) {
+      text(name);
+      if constexpr (std::is_arithmetic_v<Value>)
+        number(value);
+      else
+        text(value);
+    }
   }
   void raw(const void* data, std::size_t size) {
     const auto* begin = static_cast<const std::uint8_t*>(data);
@@ -65,6 +79,24 @@ class ByteReader {
       throw std::runtime_error("serialised map: " + std::to_string(value) + " items stated, " +
                                std::to_string(left()) + " bytes left");
     return static_cast<std::size_t>(value);
+  }
+  /// What named() wrote. Throws std::runtime_error if a name is there twice.
+  template <class Value>
+  std::map<std::string, Value> named() {
+    constexpr bool kIsNumber = std::is_arithmetic_v<Value>;
+    constexpr std::size_t kSmallest =
+        sizeof(std::uint32_t) + (kIsNumber ? sizeof(Value) : sizeof(std::uint32_t));
+    std::map<std::string, Value> values;
+    for (std::size_t left = count(kSmallest); left > 0; --left) {
+      const std::string name = text();
+      if (values.count(name) > 0)
+        throw std::runtime_error("serialised map: '" + name + "' is there twice");
+      if constexpr (kIsNumber)
+        values[name] = number<Value>();
+      else
+        values[name] = text();
+    }
+    return values;
   }
   const void* raw(std::size_t size) {
     if (size > left())

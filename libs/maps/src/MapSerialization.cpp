@@ -18,47 +18,10 @@ namespace csom {
 namespace {
 
 /// 1: labels from cameras. 2: options of the likelihood by name. 3: those of views by name. 4:
-/// beams without a return, points of unknown labels that were kept.
+/// beams without a return, points of unknown labels that were kept. 5: statistics by name.
 constexpr std::uint8_t kVersion = 5;
 
 using Texts = std::map<std::string, std::string>;
-using Counts = std::map<std::string, std::size_t>;
-
-void write(ByteWriter& out, const Texts& texts) {
-  out.number(static_cast<std::uint64_t>(texts.size()));
-  for (const auto& [key, value] : texts) {
-    out.text(key);
-    out.text(value);
-  }
-}
-
-Texts readTexts(ByteReader& in) {
-  constexpr std::size_t kSmallest = 8;
-  Texts texts;
-  for (std::size_t left = in.count(kSmallest); left > 0; --left) {
-    const std::string key = in.text();
-    texts[key] = in.text();
-  }
-  return texts;
-}
-
-void write(ByteWriter& out, const Counts& counts) {
-  out.number(static_cast<std::uint64_t>(counts.size()));
-  for (const auto& [key, count] : counts) {
-    out.text(key);
-    out.number(static_cast<std::uint64_t>(count));
-  }
-}
-
-Counts readCounts(ByteReader& in) {
-  constexpr std::size_t kSmallest = 12;
-  Counts counts;
-  for (std::size_t left = in.count(kSmallest); left > 0; --left) {
-    const std::string key = in.text();
-    counts[key] = in.number<std::uint64_t>();
-  }
-  return counts;
-}
 
 /// Options are written and read by name, so that a later version may add some.
 /// `visit(visitor)` calls visitor(OptionInfo, field) for each.
@@ -66,12 +29,12 @@ template <class Visit>
 void writeByName(ByteWriter& out, Visit&& visit) {
   Texts texts;
   visit([&](const OptionInfo& option, const auto& field) { texts[option.key] = toString(field); });
-  write(out, texts);
+  out.named(texts);
 }
 
 template <class Visit>
 void readByName(ByteReader& in, Visit&& visit) {
-  Texts texts = readTexts(in);
+  Texts texts = in.named<std::string>();
   visit([&](const OptionInfo& option, auto& field) {
     const auto text = texts.find(option.key);
     if (text == texts.end()) return;
@@ -181,9 +144,9 @@ ScanReport readReport(ByteReader& in) {
 void write(ByteWriter& out, const InsertionStatistics& statistics) {
   out.number(static_cast<std::uint64_t>(statistics.inserted));
   out.number(static_cast<std::uint64_t>(statistics.without_points));
-  write(out, statistics.not_taken);
-  write(out, statistics.damaged);
-  write(out, statistics.why_damaged);
+  out.named(statistics.not_taken);
+  out.named(statistics.damaged);
+  out.named(statistics.why_damaged);
   writeStatistics(out, statistics.labels);
   out.number(static_cast<std::uint64_t>(statistics.no_returns));
   write(out, statistics.unused);
@@ -193,9 +156,9 @@ InsertionStatistics readInsertionStatistics(ByteReader& in, std::uint8_t version
   InsertionStatistics statistics;
   statistics.inserted = in.number<std::uint64_t>();
   statistics.without_points = in.number<std::uint64_t>();
-  statistics.not_taken = readCounts(in);
-  statistics.damaged = readCounts(in);
-  statistics.why_damaged = readTexts(in);
+  statistics.not_taken = in.named<std::size_t>();
+  statistics.damaged = in.named<std::size_t>();
+  statistics.why_damaged = in.named<std::string>();
   statistics.labels = readLabelCounts(in, version);
   if (version >= 4) statistics.no_returns = in.number<std::uint64_t>();
   statistics.unused = readReport(in);
@@ -300,7 +263,7 @@ void CSemanticContinuousMap::serializeTo(mrpt::serialization::CArchive& out) con
   write(block, labelOptions);
   write(block, map_.options());
   block.text(labels_->yaml());
-  write(block, meta_);
+  block.named(meta_);
   write(block, statistics_);
   write(block, scans_);
   write(block, map_.chunks());
@@ -340,7 +303,7 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
   // Throws for classes that are not in the label set.
   LabelRules(labels->set(), insertion.point_labels, insertion.unlabelled_class,
              insertion.scan_2d_class);
-  Texts meta = readTexts(block);
+  Texts meta = block.named<std::string>();
   InsertionStatistics statistics = readInsertionStatistics(block, version);
   std::vector<ScanRecord> scans = readScans(block);
   readChunks(block, map);

@@ -14,40 +14,41 @@
 
 namespace csom {
 
-/// Names of figures inside each other are joined by dots. Texts are not written.
+/// Names of figures inside each other are joined by dots.
 template <class Statistics>
 void collectFigures(const Statistics& statistics, const std::string& prefix,
                     std::map<std::string, double>& figures) {
   Statistics::visit(
       [&](const StatisticInfo& info, const auto& field) {
-        using Field = std::decay_t<decltype(field)>;
-        if constexpr (IsStatistics<Field>::value)
+        if constexpr (IsStatistics<std::decay_t<decltype(field)>>::value)
           collectFigures(field, prefix + info.key + ".", figures);
-        else if constexpr (std::is_arithmetic_v<Field>)
+        else
           figures[prefix + info.key] = static_cast<double>(field);
       },
       statistics);
 }
 
+/// Throws std::runtime_error if `Figure`, which is called `name`, cannot have that value.
+template <class Figure>
+Figure toFigure(const std::string& name, double value) {
+  constexpr double kMaxExact = 9007199254740992;  // 2⁵³
+  if (!(value >= 0 && value <= kMaxExact) ||
+      (std::is_integral_v<Figure> && value != std::floor(value)))
+    throw std::runtime_error("serialised map: figure '" + name + "' = " + std::to_string(value));
+  return static_cast<Figure>(value);
+}
+
+/// Takes those that `statistics` has out of `figures`.
 template <class Statistics>
 void assignFigures(Statistics& statistics, const std::string& prefix,
                    std::map<std::string, double>& figures) {
   Statistics::visit(
       [&](const StatisticInfo& info, auto& field) {
         using Field = std::decay_t<decltype(field)>;
-        if constexpr (IsStatistics<Field>::value) {
+        if constexpr (IsStatistics<Field>::value)
           assignFigures(field, prefix + info.key + ".", figures);
-        } else if constexpr (std::is_arithmetic_v<Field>) {
-          const auto figure = figures.find(prefix + info.key);
-          if (figure == figures.end()) return;
-          constexpr double kMaxExact = 9007199254740992;  // 2⁵³
-          const double value = figure->second;
-          if (!(value >= 0 && value <= kMaxExact) ||
-              (std::is_integral_v<Field> && value != std::floor(value)))
-            throw std::runtime_error("serialised map: a count that cannot be");
-          field = static_cast<Field>(value);
-          figures.erase(figure);
-        }
+        else if (const auto figure = figures.extract(prefix + info.key))
+          field = toFigure<Field>(figure.key(), figure.mapped());
       },
       statistics);
 }
@@ -57,22 +58,15 @@ template <class Statistics>
 void writeStatistics(ByteWriter& out, const Statistics& statistics) {
   std::map<std::string, double> figures;
   collectFigures(statistics, "", figures);
-  out.number(static_cast<std::uint64_t>(figures.size()));
-  for (const auto& [name, figure] : figures) {
-    out.text(name);
-    out.number(figure);
-  }
+  out.named(figures);
 }
 
-/// Throws std::runtime_error for a figure that is not known: a later version wrote it.
+/// A figure that is not there is one that an earlier version did not count: it stays 0. Throws
+/// std::runtime_error for one that is not known, which a later version wrote, and for what is no
+/// count.
 template <class Statistics>
 void readStatistics(ByteReader& in, Statistics& statistics) {
-  constexpr std::size_t kSmallest = sizeof(std::uint32_t) + sizeof(double);
-  std::map<std::string, double> figures;
-  for (std::size_t left = in.count(kSmallest); left > 0; --left) {
-    const std::string name = in.text();
-    figures[name] = in.number<double>();
-  }
+  auto figures = in.named<double>();
   assignFigures(statistics, "", figures);
   if (!figures.empty())
     throw std::runtime_error("serialised map: unknown figure '" + figures.begin()->first + "'");

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "util/Sanitizers.h"
+
 namespace csom::detail {
 
 /// SIMD lanes are voxels: each lane adds its points one after the other, so that a sum does not
@@ -23,8 +25,8 @@ constexpr std::size_t kLaneAlignment = sizeof(Lanes);
 // Sanitizers intercept calls before such a choice can be made. Where instructions are counted they
 // must be the same on every processor: CSOM_NO_PROCESSOR_DISPATCH. Clang refuses vectors as results
 // in such functions, inlined or not: its code is that of any processor.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&     \
+    !defined(CSOM_ADDRESS_SANITIZED) && !defined(CSOM_THREAD_SANITIZED) && \
     !defined(CSOM_NO_PROCESSOR_DISPATCH)
 #define CSOM_EVERY_PROCESSOR __attribute__((target_clones("avx2", "default")))
 #else

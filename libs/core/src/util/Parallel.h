@@ -2,16 +2,9 @@
 // A loop over independent pieces of work on a given number of threads.
 #pragma once
 
-// GCC's word for it, and Clang's.
-#if defined(__SANITIZE_THREAD__)
-#define CSOM_THREAD_SANITIZER
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define CSOM_THREAD_SANITIZER
-#endif
-#endif
+#include "util/Sanitizers.h"
 
-#ifdef CSOM_THREAD_SANITIZER
+#ifdef CSOM_THREAD_SANITIZED
 #include <algorithm>
 #include <future>
 #include <thread>
@@ -29,7 +22,7 @@
 
 namespace csom::detail {
 
-#ifdef CSOM_THREAD_SANITIZER
+#ifdef CSOM_THREAD_SANITIZED
 
 /// ThreadSanitizer cannot see how oneTBB, which is not compiled for it, hands work over: it would
 /// report what is no race, or have to be told to ignore all that TBB calls, our own work included.
@@ -61,7 +54,7 @@ void workOnThreads(std::size_t size, const Work& work) {
 /// loop. `threads` as in Options: 1 stays on the calling thread, 0 takes all processors.
 template <class Work>
 void withThreads([[maybe_unused]] int threads, const Work& work) {
-#ifndef CSOM_THREAD_SANITIZER
+#ifndef CSOM_THREAD_SANITIZED
   if (threads != 1) {
     // More threads than processors only on demand: TBB refuses them otherwise.
     std::optional<tbb::global_control> more_threads;
@@ -84,7 +77,7 @@ void parallelRanges(std::size_t size, int threads, const Work& work) {
     work(std::size_t{0}, size);
     return;
   }
-#ifdef CSOM_THREAD_SANITIZER
+#ifdef CSOM_THREAD_SANITIZED
   workOnThreads(size, threads, work);
 #else
   workOnThreads(size, work);
