@@ -175,6 +175,57 @@ TEST(ChunkStore, CopiesShareUntilWritten) {
   EXPECT_EQ(copy.chunkCount(), 2U);
 }
 
+TEST(ChunkStore, FreeVoxelsAreIncrementsLikeOthers) {
+  Random random(4);
+  int in_place = 0;
+  for (int round = 0; round < 200; ++round) {
+    ChunkStore store;
+    ChunkStore expected;
+    ChunkStore shared;  // keeps the first sum to itself: nothing may change in place then
+    FreeIncrements free;
+    for (int step = 0; step < 4; ++step) {
+      std::vector<CountIncrement> others;
+      if (random.upTo(2) == 0) others = randomIncrements(random, 1 + random.upTo(200));
+      // Now and then the same voxels again, so that all are there already.
+      if (step == 0 || random.upTo(1) == 0) {
+        for (std::uint64_t& word : free.voxels) {
+          word = 0;
+          const int kind = random.upTo(3);
+          for (int bit = 0; bit < 64; ++bit)
+            if (kind == 0 || (kind == 1 && random.upTo(1) == 0)) word |= std::uint64_t{1} << bit;
+        }
+        free.voxels[static_cast<std::size_t>(random.upTo(7))] |= 1;
+      }
+      free.count = static_cast<std::uint32_t>(1 + random.upTo(9999));
+      std::vector<CountIncrement> all;
+      for (int voxel = 0; voxel < 512; ++voxel) {
+        const bool is_free =
+            (free.voxels[static_cast<std::size_t>(voxel / 64)] >> (voxel % 64) & 1U) != 0;
+        if (is_free) all.push_back({static_cast<std::uint16_t>(voxel), kFreeClass, free.count});
+        for (const CountIncrement& other : others)
+          if (other.voxel == voxel && !(is_free && other.class_id == kFreeClass))
+            all.push_back(other);
+      }
+      std::vector<CountIncrement> rest;
+      for (const CountIncrement& other : all)
+        if (other.class_id != kFreeClass ||
+            (free.voxels[other.voxel / 64U] >> (other.voxel % 64U) & 1U) == 0)
+          rest.push_back(other);
+      const Chunk* const before = store.find({1, 2, 3});
+      store.add(ScanIncrements{{{1, 2, 3}, rest, free}}, 1);
+      expected.add(ScanIncrements{{{1, 2, 3}, all, {}}}, 1);
+      in_place += before != nullptr && store.find({1, 2, 3}) == before ? 1 : 0;
+      ASSERT_EQ(makeRecord(*store.find({1, 2, 3})), makeRecord(*expected.find({1, 2, 3})));
+      if (shared.chunkCount() == 0 && random.upTo(3) == 0) shared = store;
+    }
+    EXPECT_EQ(Chunk::fromRecord(makeRecord(*store.find({1, 2, 3})).data(),
+                                store.find({1, 2, 3})->recordSize(), kClasses)
+                  ->knownVoxels(),
+              expected.find({1, 2, 3})->knownVoxels());
+  }
+  EXPECT_GT(in_place, 20);
+}
+
 TEST(ChunkStore, CountsSaturateInsteadOfWrapping) {
   ChunkStore store;
   for (int i = 0; i < 3; ++i) store.add({{{0, 0, 0}, {{7, 1, 0xf0000000U}}}}, 1);

@@ -81,6 +81,18 @@ class RandomCase {
     return s;
   }
 
+  /// Random scores of one more point.
+  void addScores(Scan& s, int classes) {
+    std::vector<double> raw(static_cast<std::size_t>(classes));
+    double sum = 0;
+    for (double& score : raw) {
+      score = integer(0, 1) == 0 ? 0 : real(0, 1);
+      sum += score;
+    }
+    if (sum == 0) raw[0] = sum = 1;
+    for (const double score : raw) s.scores.push_back(static_cast<float>(score / sum));
+  }
+
  private:
   void randomizeSurfaces(Options& o) {
     o.surface.planes = integer(0, 3) > 0;
@@ -93,17 +105,6 @@ class RandomCase {
     o.surface.free_limit = real(0.1, 2);
     o.surface.counter_evidence = real(0, 1.5);
   }
-  void addScores(Scan& s, int classes) {
-    std::vector<double> raw(static_cast<std::size_t>(classes));
-    double sum = 0;
-    for (double& score : raw) {
-      score = integer(0, 1) == 0 ? 0 : real(0, 1);
-      sum += score;
-    }
-    if (sum == 0) raw[0] = sum = 1;
-    for (const double score : raw) s.scores.push_back(static_cast<float>(score / sum));
-  }
-
   std::mt19937_64 random_;
 };
 

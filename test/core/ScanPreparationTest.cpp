@@ -95,6 +95,74 @@ TEST(ScanPreparation, SizesThatDoNotMatchThrow) {
   EXPECT_THROW(prepareScan(scan, smallOptions(), report), std::invalid_argument);
 }
 
+TEST(ScanPreparation, AnImageMustFitItsScan) {
+  const auto messageOf = [](const Scan& scan) -> std::string {
+    ScanReport report;
+    try {
+      prepareScan(scan, Options{}, report);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  Scan scan;
+  scan.points.assign(3, {1, 2, 3});
+  scan.labels.assign(3, 1);
+  scan.image.pixels.assign(3, {0, 5});
+  EXPECT_EQ(messageOf(scan), "");
+  scan.image.columns_of_turn = 5;
+  EXPECT_EQ(messageOf(scan), "image of a scan: column 5 of a turn of 5");
+  scan.image.pixels.assign(3, {RangeImage::kNoRow, 5});
+  EXPECT_EQ(messageOf(scan), "");
+  scan.image.column_step = 0;
+  EXPECT_EQ(messageOf(scan),
+            "image of a scan: column_step is 0 and columns_of_turn 5; they are at least 1 and at "
+            "least 0");
+  scan.image.column_step = 1;
+  scan.image.pixels.resize(2);
+  EXPECT_EQ(messageOf(scan), "scan of 3 points has an image of 2");
+}
+
+TEST(ScanPreparation, RejectedPointsLeaveTheImage) {
+  Scan scan;
+  for (int i = 0; i < 6; ++i) {
+    scan.points.emplace_back(i % 2 == 0 ? 1.0F + static_cast<float>(i) : std::nanf(""), 0, 0);
+    scan.labels.push_back(1);
+    scan.image.pixels.push_back({static_cast<std::uint16_t>(i), 10 * i});
+  }
+  ScanReport report;
+  const PreparedScan prepared = prepareScan(scan, Options{}, report);
+  EXPECT_EQ(report.rejectedTotal(), 3U);
+  EXPECT_EQ(report.training_points, 3U);
+  ASSERT_EQ(prepared.image.points.size(), 3U);
+  ASSERT_EQ(prepared.image.image.pixels.size(), 3U);
+  for (std::uint16_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(prepared.image.points[i].x(), 1.0F + 2.0F * i);
+    EXPECT_EQ(prepared.image.image.pixels[i],
+              (RangeImage::Pixel{static_cast<std::uint16_t>(2 * i), 20 * i}));
+  }
+  EXPECT_TRUE(prepared.points.empty());
+}
+
+TEST(ScanPreparation, OnlySurfaceCsomLooksAtTheImage) {
+  Scan scan;
+  scan.points.assign(3, {1, 2, 3});
+  scan.labels.assign(3, 1);
+  scan.image.pixels.assign(3, {0, 5});
+  Options options;
+  ScanReport report;
+  EXPECT_FALSE(prepareScan(scan, options, report).image.points.empty());
+  options.free_space.mode = FreeSpace::Sampled;
+  EXPECT_TRUE(prepareScan(scan, options, report).image.points.empty());
+  options.free_space.mode = FreeSpace::Projective;
+  for (const Method method : {Method::SeeCsom, Method::SBki, Method::SCsm}) {
+    options.method = method;
+    const PreparedScan prepared = prepareScan(scan, options, report);
+    EXPECT_TRUE(prepared.image.points.empty());
+    EXPECT_EQ(prepared.beam_ends.size(), 3U) << "as raycast";
+  }
+}
+
 TEST(ScanPreparation, DownSamplingTakesCentroidAndMajority) {
   Options options = smallOptions();
   options.scan.ds_resolution = 1.0;

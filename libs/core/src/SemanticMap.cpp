@@ -52,7 +52,9 @@ ScanReport SemanticMap::insert(const Scan& scan) {
     const PreparedScan prepared = prepareScan(scan, options_, report);
     report.prepare_ms = watch.lap();
     const ScanIncrements kernel_mass = detail::inferIncrements(prepared, options_, report);
-    const ScanIncrements free_space = detail::castFreeSpace(prepared, options_, report);
+    const ScanIncrements free_space = prepared.image.image.empty()
+                                          ? detail::castFreeSpace(prepared, options_, report)
+                                          : ScanIncrements{};
     report.infer_ms = watch.lap();
     store_.add(kernel_mass, options_.threads);
     store_.add(free_space, options_.threads);

@@ -16,12 +16,11 @@ const MethodEntry& entryOf(Method method) {
 
 ScanIncrements inferIncrements(const PreparedScan& scan, const Options& options,
                                ScanReport& report) {
-  if (scan.blocks.empty()) return {};
+  if (scan.blocks.empty() && scan.image.points.empty()) return {};
   ScanIncrements increments = entryOf(options.method).infer(scan, options, report);
-  increments.erase(
-      std::remove_if(increments.begin(), increments.end(),
-                     [](const ChunkIncrements& chunk) { return chunk.increments.empty(); }),
-      increments.end());
+  increments.erase(std::remove_if(increments.begin(), increments.end(),
+                                  [](const ChunkIncrements& chunk) { return chunk.empty(); }),
+                   increments.end());
   return increments;
 }
 

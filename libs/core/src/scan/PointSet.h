@@ -14,7 +14,8 @@ namespace csom::detail {
 struct PointSet {
   std::vector<Eigen::Vector3f> points;
   std::vector<ClassId> labels;
-  std::vector<float> scores;  ///< rows of one score a class
+  std::vector<float> scores;              ///< rows of one score a class
+  std::vector<RangeImage::Pixel> pixels;  ///< of an image, or none
 
   void append(const PointSet& other) {
     points.insert(points.end(), other.points.begin(), other.points.end());

@@ -38,6 +38,24 @@ double squareOf(double v) {
   return v * v;
 }
 
+void checkImage(const Scan& scan) {
+  const RangeImage& image = scan.image;
+  if (image.pixels.size() != scan.points.size())
+    throw std::invalid_argument("scan of " + std::to_string(scan.points.size()) +
+                                " points has an image of " + std::to_string(image.pixels.size()));
+  if (image.column_step < 1 || image.columns_of_turn < 0)
+    throw std::invalid_argument("image of a scan: column_step is " +
+                                std::to_string(image.column_step) + " and columns_of_turn " +
+                                std::to_string(image.columns_of_turn) +
+                                "; they are at least 1 and at least 0");
+  if (image.columns_of_turn == 0) return;
+  for (const RangeImage::Pixel& pixel : image.pixels)
+    if (pixel.row != RangeImage::kNoRow &&
+        (pixel.column < 0 || pixel.column >= image.columns_of_turn))
+      throw std::invalid_argument("image of a scan: column " + std::to_string(pixel.column) +
+                                  " of a turn of " + std::to_string(image.columns_of_turn));
+}
+
 void checkSizes(const Scan& scan, int classes) {
   const auto fail = [&](const char* what, std::size_t size, std::size_t expected) {
     throw std::invalid_argument("scan of " + std::to_string(scan.points.size()) + " points has " +
@@ -46,6 +64,7 @@ void checkSizes(const Scan& scan, int classes) {
   };
   if (scan.points.size() >= std::numeric_limits<std::uint32_t>::max())
     throw std::invalid_argument("a scan may hold at most 2^32-2 points");
+  if (!scan.image.empty()) checkImage(scan);
   if (scan.isSoft()) {
     const std::size_t expected = scan.points.size() * static_cast<std::size_t>(classes);
     if (scan.scores.size() != expected) fail("scores", scan.scores.size(), expected);
@@ -87,10 +106,14 @@ class Preparation {
         BlockLayout(detail::entryOf(options_.method).block_is_voxel ? 1 : options_.block_depth);
     out_.origin = scan_.origin;
     report_.points += scan_.points.size();
+    if (usesImage()) {
+      takeImage();
+      return std::move(out_);
+    }
     PointSet hits = detail::downSample(accept(), scan_.origin, options_);
     report_.training_points += hits.points.size();
     if (!hits.points.empty()) {
-      if (options_.free_space.mode == FreeSpace::Raycast) recordBeams(hits);
+      if (options_.castsRays()) recordBeams(hits);
       if (options_.free_space.mode == FreeSpace::Sampled)
         appendFreePoints(hits, detail::downSample(sampleFreeSpace(hits), scan_.origin, options_));
       bin(hits);
@@ -99,6 +122,22 @@ class Preparation {
   }
 
  private:
+  bool usesImage() const {
+    return !scan_.image.empty() && detail::entryOf(options_.method).uses_image &&
+           options_.free_space.mode != FreeSpace::Sampled;
+  }
+
+  void takeImage() {
+    PointSet accepted = accept();
+    report_.training_points += accepted.points.size();
+    if (options_.free_space.mode == FreeSpace::Raycast) recordBeams(accepted);
+    out_.image.image = scan_.image;
+    out_.image.image.pixels = std::move(accepted.pixels);
+    out_.image.points = std::move(accepted.points);
+    out_.image.labels = std::move(accepted.labels);
+    out_.image.scores = std::move(accepted.scores);
+  }
+
   Eigen::Vector3d inMap(const Eigen::Vector3f& point) const {
     return scan_.origin + point.cast<double>();
   }
@@ -148,6 +187,7 @@ class Preparation {
       case FreeSpace::Sampled:
         return kMaxFreeSteps * options_.free_space.resolution;
       case FreeSpace::Raycast:
+      case FreeSpace::Projective:
         return kMaxFreeSteps * options_.resolution;
       case FreeSpace::None:
         break;
@@ -169,7 +209,8 @@ class Preparation {
                              }
                              rejected += rejected_here;
                            });
-    PointSet accepted{scan_.points, scan_.labels, scan_.scores};
+    PointSet accepted{scan_.points, scan_.labels, scan_.scores, {}};
+    if (usesImage()) accepted.pixels = scan_.image.pixels;
     if (rejected > 0) {
       const auto classes = static_cast<std::size_t>(options_.number_of_classes);
       std::size_t kept = 0;
@@ -179,6 +220,7 @@ class Preparation {
           continue;
         }
         accepted.points[kept] = accepted.points[i];
+        if (!accepted.pixels.empty()) accepted.pixels[kept] = accepted.pixels[i];
         if (!scan_.isSoft()) {
           accepted.labels[kept] = accepted.labels[i];
         } else if (kept < i) {
@@ -188,13 +230,14 @@ class Preparation {
         ++kept;
       }
       accepted.points.resize(kept);
+      if (!accepted.pixels.empty()) accepted.pixels.resize(kept);
       if (scan_.isSoft()) {
         accepted.scores.resize(kept * classes);
       } else {
         accepted.labels.resize(kept);
       }
     }
-    if (options_.free_space.mode == FreeSpace::Raycast) recordHits(accepted);
+    if (options_.castsRays()) recordHits(accepted);
     return accepted;
   }
 

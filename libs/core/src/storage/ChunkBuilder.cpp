@@ -154,6 +154,89 @@ void ChunkBuilder::add(ChunkRef& chunk, const std::vector<CountIncrement>& incre
   }
 }
 
+void ChunkBuilder::add(ChunkRef& chunk, const ChunkIncrements& increments) {
+  const FreeIncrements& free = increments.free;
+  if (free.empty()) {
+    add(chunk, increments.increments);
+    return;
+  }
+  if (increments.increments.empty()) {
+    if (!chunk) {
+      chunk = build(free);
+      return;
+    }
+    if (addInPlace(chunk, free)) return;
+  }
+  all_.clear();
+  auto next = increments.increments.begin();
+  const auto end = increments.increments.end();
+  for (std::size_t word = 0; word < free.voxels.size(); ++word)
+    for (std::uint64_t bits = free.voxels[word]; bits != 0; bits &= bits - 1) {
+      const auto voxel =
+          static_cast<std::uint16_t>(word * 64 + static_cast<std::size_t>(__builtin_ctzll(bits)));
+      while (next != end && next->voxel < voxel) all_.push_back(*next++);
+      all_.push_back({voxel, kFreeClass, free.count});
+    }
+  all_.insert(all_.end(), next, end);
+  add(chunk, all_);
+}
+
+/// A chunk of nothing but free voxels.
+ChunkRef ChunkBuilder::build(const FreeIncrements& free) {
+  Chunk::Header header{};
+  header.known = free.voxels;
+  std::uint32_t voxels = 0;
+  for (std::size_t word = 0; word < header.known.size(); ++word) {
+    header.word_entries[word] = voxels;
+    header.word_voxels[word] = static_cast<std::uint16_t>(voxels);
+    voxels += static_cast<std::uint32_t>(__builtin_popcountll(header.known[word]));
+  }
+  header.voxel_count = voxels;
+  header.entry_count = voxels;
+  const std::size_t size = Chunk::recordBytes(voxels, voxels);
+  ChunkRef chunk = allocate(size);
+  auto* const bytes = static_cast<unsigned char*>(record(chunk));
+  std::memcpy(bytes, &header, sizeof header);
+  auto* const counts = reinterpret_cast<std::uint32_t*>(bytes + sizeof header);
+  std::fill_n(counts, voxels, free.count);
+  auto* first_entry = reinterpret_cast<std::uint16_t*>(counts + voxels);
+  for (const std::uint64_t known : header.known)
+    for (int i = 0; i < __builtin_popcountll(known); ++i)
+      *first_entry++ = static_cast<std::uint16_t>(i);
+  auto* const classes = reinterpret_cast<unsigned char*>(first_entry);
+  std::memset(classes, kFreeClass, static_cast<std::size_t>(bytes + size - classes));
+  return chunk;
+}
+
+/// If nobody shares the chunk and all these voxels have been free before.
+bool ChunkBuilder::addInPlace(ChunkRef& chunk, const FreeIncrements& free) {
+  if (chunk.chunk_->references_.load(std::memory_order_acquire) != 1) return false;
+  const Chunk::Header& header = chunk->header();
+  const std::uint8_t* const classes = chunk->classes();
+  const std::uint16_t* const first_entries = chunk->firstEntries();
+  const auto forEachEntry = [&](const auto& visit) {
+    for (std::size_t word = 0; word < free.voxels.size(); ++word) {
+      const std::uint64_t known = header.known[word];
+      if ((free.voxels[word] & ~known) != 0) return false;
+      const std::uint16_t* const entries = first_entries + header.word_voxels[word];
+      for (std::uint64_t bits = free.voxels[word]; bits != 0; bits &= bits - 1) {
+        const std::uint64_t before = (bits & -bits) - 1;
+        const int rank = __builtin_popcountll(known & before);
+        if (!visit(header.word_entries[word] + entries[rank])) return false;
+      }
+    }
+    return true;
+  };
+  if (!forEachEntry([&](std::uint32_t entry) { return classes[entry] == kFreeClass; }))
+    return false;
+  auto* const counts =
+      reinterpret_cast<std::uint32_t*>(static_cast<Chunk::Header*>(record(chunk)) + 1);
+  return forEachEntry([&](std::uint32_t entry) {
+    counts[entry] = addCounts(counts[entry], free.count);
+    return true;
+  });
+}
+
 bool ChunkBuilder::addInPlace(ChunkRef& chunk, const std::vector<CountIncrement>& increments) {
   merge(chunk.get(), increments);
   if (!fits(chunk)) return false;

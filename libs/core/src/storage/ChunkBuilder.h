@@ -18,6 +18,8 @@ class ChunkBuilder {
   /// Adds to `chunk`, which may be null: in place if nobody shares it and every (voxel, class) is
   /// there already, else to a copy.
   void add(ChunkRef& chunk, const std::vector<CountIncrement>& increments);
+  /// The same with voxels that are free: where there is nothing else, without looking for places.
+  void add(ChunkRef& chunk, const ChunkIncrements& increments);
   /// `base` plus `increments`; `base` may be null.
   ChunkRef sum(const Chunk* base, const std::vector<CountIncrement>& increments);
   /// Adds in place, or returns false if it cannot be done; see add().
@@ -30,6 +32,8 @@ class ChunkBuilder {
  private:
   /// Makes the members below those of the sum.
   void merge(const Chunk* base, const std::vector<CountIncrement>& increments);
+  static ChunkRef build(const FreeIncrements& free);
+  static bool addInPlace(ChunkRef& chunk, const FreeIncrements& free);
   bool fits(const ChunkRef& chunk) const;
   void overwriteCounts(ChunkRef& chunk) const;
   ChunkRef build() const;
@@ -39,6 +43,7 @@ class ChunkBuilder {
   std::vector<std::uint32_t> counts_;
   std::vector<std::uint8_t> classes_;
   std::array<std::uint16_t, 512> first_entries_{};
+  std::vector<CountIncrement> all_;  ///< increments with those of free voxels among them
 };
 
 }  // namespace csom

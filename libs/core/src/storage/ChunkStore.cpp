@@ -67,8 +67,7 @@ void ChunkStore::add(const ScanIncrements& increments, int threads) {
   for (const ChunkIncrements& chunk : increments) slots.push_back(&slotFor(chunk.chunk));
   detail::parallelRanges(increments.size(), threads, [&](std::size_t begin, std::size_t end) {
     ChunkBuilder builder;
-    for (std::size_t i = begin; i < end; ++i)
-      builder.add(slots[i]->chunk, increments[i].increments);
+    for (std::size_t i = begin; i < end; ++i) builder.add(slots[i]->chunk, increments[i]);
   });
 }
 

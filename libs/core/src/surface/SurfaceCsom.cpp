@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "image/ImageInference.h"
 #include "inference/ChunkTasks.h"
 #include "inference/ClassMass.h"
 #include "inference/Counts.h"
@@ -256,6 +257,7 @@ class SurfaceInference {
 
 ScanIncrements inferSurfaceCsom(const PreparedScan& scan, const Options& options,
                                 ScanReport& report) {
+  if (!scan.image.image.empty()) return inferFromImage(scan, options, report);
   return SurfaceInference(scan, options).run(report);
 }
 

@@ -4,6 +4,7 @@
 
 #include <csom/core/types.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,10 +17,22 @@ struct CountIncrement {
   std::uint32_t count;
 };
 
-/// The increments of one chunk, sorted by (voxel, class), each pair at most once.
+/// Voxels of a chunk, a bit each, that all receive the same count of class 0.
+struct FreeIncrements {
+  std::array<std::uint64_t, 8> voxels{};
+  std::uint32_t count = 0;  ///< in quanta; 0: no voxel receives any
+
+  bool empty() const { return count == 0; }
+};
+
+/// The increments of one chunk, sorted by (voxel, class), each pair at most once. Of voxels that
+/// are free as well, there are none of class 0.
 struct ChunkIncrements {
   ChunkIndex chunk;
   std::vector<CountIncrement> increments;
+  FreeIncrements free = {};
+
+  bool empty() const { return increments.empty() && free.empty(); }
 };
 
 /// Each chunk at most once, in any order.

@@ -21,7 +21,8 @@ enum class Method { SurfaceCsom, SeeCsom, SBki, SCsm };
 namespace detail {
 
 /// One scan and the options → counts for voxels; adds what it did to the report. Depends on nothing
-/// else: not on the map, on other scans, on threads. Equations: src/inference and src/surface.
+/// else: not on the map, on other scans, on threads. Equations: src/inference,
+/// src/surface and src/image.
 using InferenceFunction = ScanIncrements(const PreparedScan&, const Options&, ScanReport&);
 InferenceFunction inferSurfaceCsom;
 InferenceFunction inferSeeCsom;
@@ -31,14 +32,16 @@ struct MethodEntry {
   Method method;
   const char* word;     ///< in ini files
   bool block_is_voxel;  ///< whatever block_depth says
+  bool uses_image;      ///< of scans that have one
   InferenceFunction* infer;
 };
 
 constexpr std::array kMethods{
-    MethodEntry{Method::SurfaceCsom, "surface-csom", false, inferSurfaceCsom},
-    MethodEntry{Method::SeeCsom, "see-csom", false, inferSeeCsom},
-    MethodEntry{Method::SBki, "s-bki", false, inferSeeCsom},  // without both entropies, see Options
-    MethodEntry{Method::SCsm, "s-csm", true, inferSCsm},
+    MethodEntry{Method::SurfaceCsom, "surface-csom", false, true, inferSurfaceCsom},
+    MethodEntry{Method::SeeCsom, "see-csom", false, false, inferSeeCsom},
+    MethodEntry{Method::SBki, "s-bki", false, false,
+                inferSeeCsom},  // without both entropies, see Options
+    MethodEntry{Method::SCsm, "s-csm", true, false, inferSCsm},
 };
 
 const MethodEntry& entryOf(Method method);

@@ -17,8 +17,9 @@ enum class Kernel { Sparse, Linear };
 /// of its block and (where the block's class entropy exceeds 0.3) of the block's neighbours.
 enum class Neighbourhood { Radius, ExtendedBlock };
 /// None: voxels are never free. Sampled: points of class 0 along each beam. Raycast: every voxel
-/// that a beam crosses receives the same weight once a scan.
-enum class FreeSpace { None, Sampled, Raycast };
+/// that a beam crosses receives the same weight once a scan. Projective: every voxel that lies in
+/// front of what a scan with an image sees, between its beams too; as Raycast for others.
+enum class FreeSpace { None, Sampled, Raycast, Projective };
 
 template <>
 inline constexpr EnumWords<Kernel, 2> kWords<Kernel>{
@@ -27,8 +28,10 @@ template <>
 inline constexpr EnumWords<Neighbourhood, 2> kWords<Neighbourhood>{
     {{Neighbourhood::Radius, "radius"}, {Neighbourhood::ExtendedBlock, "extended-block"}}};
 template <>
-inline constexpr EnumWords<FreeSpace, 3> kWords<FreeSpace>{
-    {{FreeSpace::None, "none"}, {FreeSpace::Sampled, "sampled"}, {FreeSpace::Raycast, "raycast"}}};
+inline constexpr EnumWords<FreeSpace, 4> kWords<FreeSpace>{{{FreeSpace::None, "none"},
+                                                            {FreeSpace::Sampled, "sampled"},
+                                                            {FreeSpace::Raycast, "raycast"},
+                                                            {FreeSpace::Projective, "projective"}}};
 
 /// A length of the map's size, or none.
 constexpr Range kAnyLength{0, 1e7};
@@ -231,6 +234,9 @@ struct Options {
     return kernel.length_max > 0 ? kernel.length_max : 5 * resolution;
   }
   double kernelLengthFixed() const { return kernel.length > 0 ? kernel.length : 3 * resolution; }
+  bool castsRays() const {
+    return free_space.mode == FreeSpace::Raycast || free_space.mode == FreeSpace::Projective;
+  }
   bool usesContextEntropy() const { return method == Method::SeeCsom && see_csom.rvfm; }
   bool usesClassEntropy() const {
     return (method == Method::SeeCsom || method == Method::SurfaceCsom) && kernel.aklm;

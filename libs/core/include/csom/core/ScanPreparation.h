@@ -22,6 +22,14 @@ struct TrainingPoint {
   ClassId label;  ///< of a hard scan; 0 in a soft one
 };
 
+/// The accepted points of a scan with an image, in the order of the scan.
+struct ImagePoints {
+  RangeImage image;                     ///< of these points
+  std::vector<Eigen::Vector3f> points;  ///< relative to the origin [m]
+  std::vector<ClassId> labels;          ///< as in Scan
+  std::vector<float> scores;
+};
+
 /// A scan ready for inference. Points are grouped by block: those of blocks[b] are
 /// points[block_begin[b]] … points[block_begin[b+1]−1].
 struct PreparedScan {
@@ -35,6 +43,10 @@ struct PreparedScan {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< sensor in the map frame [m]
   std::vector<Eigen::Vector3d> beam_ends;            ///< down-sampled hits in the map frame [m]
   std::vector<VoxelIndex> hit_voxels;  ///< voxels of every accepted point, with repeats
+
+  /// Of a scan with an image, for methods that look at it: these points, neither down-sampled nor
+  /// in blocks, instead of those above.
+  ImagePoints image;
 };
 
 /// How far a scan may reach from its origin along each axis [m].

@@ -2,6 +2,8 @@
 // The vocabulary of the library: classes, integer indices of the grid, and a scan.
 #pragma once
 
+#include <csom/core/RangeImage.h>
+
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
@@ -59,6 +61,7 @@ struct Scan {
   std::vector<Eigen::Vector3f> points;               ///< end points relative to origin [m]
   std::vector<ClassId> labels;                       ///< hard labels, or empty
   std::vector<float> scores;                         ///< soft labels, or empty
+  RangeImage image;  ///< where points lie beside each other, or empty
 
   bool isSoft() const { return !scores.empty(); }
 };

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "image/BeamNeighbours.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "util/Parallel.h"
+
+namespace csom::detail {
+
+namespace {
+
+/// A beam is missing between two of a row that are farther apart, in tenths of a column step.
+constexpr std::int64_t kNextTenths = 16;
+/// Beams of adjacent rows lie side by side if they are nearer.
+constexpr std::int64_t kAboveTenths = 8;
+
+/// Lists the beams row by row and finds what lies beside them.
+class Arrangement {
+ public:
+  Arrangement(const RangeImage& image, BeamNeighbours& out) : image_(image), out_(out) {}
+
+  void run(int threads) {
+    sortByRow();
+    const std::size_t rows = out_.row_begin.size() - 1;
+    const std::size_t beams = out_.point.size();
+    for (std::vector<BeamId>* side : {&out_.next, &out_.previous, &out_.above, &out_.below})
+      side->assign(beams, kNoBeam);
+    parallelRanges(rows, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t row = begin; row < end; ++row) {
+        linkRow(row);
+        if (row + 1 < rows) linkRows(row, row + 1, out_.above);
+        if (row > 0) linkRows(row, row - 1, out_.below);
+      }
+    });
+  }
+
+ private:
+  std::int64_t columnOf(std::size_t beam) const { return columns_[beam]; }
+  bool isNear(std::int64_t columns, std::int64_t tenths) const {
+    return 10 * columns < tenths * image_.column_step;
+  }
+
+  /// Counts, then sorts within the rows, most of which are in order already.
+  void sortByRow() {
+    const std::vector<RangeImage::Pixel>& pixels = image_.pixels;
+    std::size_t rows = 0;
+    for (const RangeImage::Pixel& pixel : pixels)
+      if (pixel.row != RangeImage::kNoRow) rows = std::max<std::size_t>(rows, pixel.row + 1U);
+    std::vector<std::uint32_t> begin(rows + 1, 0);
+    for (const RangeImage::Pixel& pixel : pixels)
+      if (pixel.row != RangeImage::kNoRow) ++begin[pixel.row + 1U];
+    for (std::size_t row = 0; row < rows; ++row) begin[row + 1] += begin[row];
+    std::vector<std::uint32_t> points(begin[rows]);
+    std::vector<std::uint32_t> end(begin.begin(), begin.end() - 1);
+    for (std::uint32_t i = 0; i < pixels.size(); ++i)
+      if (pixels[i].row != RangeImage::kNoRow) points[end[pixels[i].row]++] = i;
+
+    const auto before = [&](std::uint32_t a, std::uint32_t b) {
+      return pixels[a].column != pixels[b].column ? pixels[a].column < pixels[b].column : a < b;
+    };
+    out_.row_begin.assign(1, 0);
+    out_.point.reserve(points.size());
+    columns_.reserve(points.size());
+    for (std::size_t row = 0; row < rows; ++row) {
+      const auto first = points.begin() + begin[row];
+      const auto last = points.begin() + begin[row + 1];
+      // A turn may begin anywhere.
+      const auto drop = std::is_sorted_until(first, last, before);
+      if (drop != last) std::rotate(first, drop, last);
+      if (!std::is_sorted(first, last, before)) std::sort(first, last, before);
+      for (auto point = first; point != last; ++point) {
+        const std::int32_t column = pixels[*point].column;
+        if (out_.point.size() > out_.row_begin.back() && columns_.back() == column) continue;
+        out_.point.push_back(*point);
+        columns_.push_back(column);
+      }
+      out_.row_begin.push_back(static_cast<std::uint32_t>(out_.point.size()));
+    }
+  }
+
+  void linkRow(std::size_t row) const {
+    const std::size_t begin = out_.row_begin[row];
+    const std::size_t end = out_.row_begin[row + 1];
+    const auto link = [&](std::size_t beam, std::size_t next, std::int64_t columns) {
+      if (!isNear(columns, kNextTenths)) return;
+      out_.next[beam] = static_cast<BeamId>(next);
+      out_.previous[next] = static_cast<BeamId>(beam);
+    };
+    for (std::size_t beam = begin; beam + 1 < end; ++beam)
+      link(beam, beam + 1, columnOf(beam + 1) - columnOf(beam));
+    if (image_.columns_of_turn > 0 && end > begin + 1)
+      link(end - 1, begin, columnOf(begin) + image_.columns_of_turn - columnOf(end - 1));
+  }
+
+  /// For each beam of `row` the beam of `other` beside it.
+  void linkRows(std::size_t row, std::size_t other, std::vector<BeamId>& links) const {
+    const std::size_t begin = out_.row_begin[other];
+    const std::size_t end = out_.row_begin[other + 1];
+    if (begin == end) return;
+    std::size_t nearest = begin;
+    for (std::size_t beam = out_.row_begin[row]; beam < out_.row_begin[row + 1]; ++beam) {
+      const std::int64_t column = columnOf(beam);
+      const auto distance = [&](std::size_t candidate) {
+        return std::abs(columnOf(candidate) - column);
+      };
+      while (nearest + 1 < end && distance(nearest + 1) < distance(nearest)) ++nearest;
+      std::size_t best = nearest;
+      std::int64_t columns = distance(nearest);
+      if (image_.columns_of_turn > 0) {  // the other end of the row may be nearer
+        const std::int64_t to_first = columnOf(begin) + image_.columns_of_turn - column;
+        const std::int64_t to_last = column + image_.columns_of_turn - columnOf(end - 1);
+        if (to_first < columns) {
+          best = begin;
+          columns = to_first;
+        }
+        if (to_last < columns) {
+          best = end - 1;
+          columns = to_last;
+        }
+      }
+      if (isNear(columns, kAboveTenths)) links[beam] = static_cast<BeamId>(best);
+    }
+  }
+
+  const RangeImage& image_;
+  BeamNeighbours& out_;
+  std::vector<std::int32_t> columns_;  ///< of the beams
+};
+
+}  // namespace
+
+BeamNeighbours::BeamNeighbours(const RangeImage& image, int threads) {
+  Arrangement(image, *this).run(threads);
+}
+
+}  // namespace csom::detail

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "image/CubeGrid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace csom::detail {
+
+CubeGrid CubeGrid::forSpacing(double sine) {
+  constexpr int kFewest = 5;  // levels: 16 pixels
+  constexpr int kMost = 10;
+  int levels = kFewest;
+  while (levels < kMost && sine * (1 << (levels - 1)) < 2) ++levels;
+  return CubeGrid(levels);
+}
+
+int CubeGrid::faceOf(float x, float y, float z) {
+  const float ax = std::abs(x);
+  const float ay = std::abs(y);
+  const float az = std::abs(z);
+  if (ax >= ay && ax >= az) return x >= 0 ? 0 : 1;
+  if (ay >= az) return y >= 0 ? 2 : 3;
+  return z >= 0 ? 4 : 5;
+}
+
+/// A box as a face sees it.
+struct CubeGrid::FaceBox {
+  float nearest, farthest;  ///< depth
+  float min_u, max_u, min_v, max_v;
+};
+
+CubeGrid::FaceBox CubeGrid::seenThrough(int face, const SpaceBox& box) {
+  const FaceAxes axes(face);
+  return {axes.positive ? box.min[axes.depth] : -box.max[axes.depth],
+          axes.positive ? box.max[axes.depth] : -box.min[axes.depth],
+          box.min[axes.u],
+          box.max[axes.u],
+          box.min[axes.v],
+          box.max[axes.v]};
+}
+
+CubeWindow CubeGrid::window(int face, const FaceBox& box) const {
+  const float near = 1 / box.nearest;
+  const float far = 1 / box.farthest;
+  const auto lower = [&](float min) { return min * (min < 0 ? near : far); };
+  const auto upper = [&](float max) { return max * (max > 0 ? near : far); };
+  return {face,
+          firstPixel(lower(box.min_u)),
+          lastPixel(upper(box.max_u)),
+          firstPixel(lower(box.min_v)),
+          lastPixel(upper(box.max_v)),
+          box.nearest,
+          box.farthest};
+}
+
+CubeWindows CubeGrid::windowsOf(const SpaceBox& box) const {
+  CubeWindows windows;
+  const auto least = [](float min, float max) { return std::max({0.0F, min, -max}); };
+  for (int face = 0; face < kFaces; ++face) {
+    FaceBox seen = seenThrough(face, box);
+    // Of what a face shows, the depth is at least the distance along the other axes.
+    seen.nearest =
+        std::max({seen.nearest, least(seen.min_u, seen.max_u), least(seen.min_v, seen.max_v)});
+    if (!(seen.farthest >= seen.nearest)) continue;
+    windows.add(seen.nearest > 0 ? window(face, seen)
+                                 : CubeWindow{face, 0, side_ - 1, 0, side_ - 1, 0, seen.farthest});
+  }
+  return windows;
+}
+
+CubeWindows CubeGrid::windowsOfCentre(const SpaceBox& box) const {
+  std::array<float, 3> centre{};
+  for (std::size_t axis = 0; axis < 3; ++axis) centre[axis] = box.min[axis] + box.max[axis];
+  const float largest = std::max({std::abs(centre[0]), std::abs(centre[1]), std::abs(centre[2])});
+  CubeWindows windows;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (std::abs(centre[axis]) != largest) continue;
+    const int face = static_cast<int>(2 * axis) + (centre[axis] >= 0 ? 0 : 1);
+    const FaceBox seen = seenThrough(face, box);
+    if (!(seen.nearest > 0)) return {};
+    windows.add(window(face, seen));
+  }
+  return windows;
+}
+
+int CubeGrid::levelFor(float edge, float nearest) const {
+  // (u + e/2)/(d − e/2) − (u − e/2)/(d + e/2) ≤ 2e/(d − e/2) where |u| ≤ d.
+  const float pixels = 2 * edge / nearest * halfSide();
+  int level = 0;
+  while (level < levels_ - 1 && static_cast<float>((kWindowPixels - 1) << level) < pixels + 1)
+    ++level;
+  return level;
+}
+
+int CubeGrid::levelOf(const CubeWindow& window) const {
+  constexpr int kFew = 4;  // fewer are cheaper to look at, more are surer to tell
+  const int size = std::max(window.last_u - window.first_u, window.last_v - window.first_v);
+  int level = 0;
+  while (size >> level > kFew) ++level;
+  return level;
+}
+
+}  // namespace csom::detail

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "image/DepthCube.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "image/FacePainter.h"
+#include "util/Parallel.h"
+
+namespace csom::detail {
+
+namespace {
+
+/// Root mean square of the sine between adjacent beams of a row; 0 if there are none.
+double spacingOf(const ImageBeams& beams) {
+  double sum = 0;
+  double count = 0;
+  for (std::size_t a = 0; a < beams.size(); ++a) {
+    if (beams.neighbours.next[a] == kNoBeam) continue;
+    const auto b = static_cast<std::size_t>(beams.neighbours.next[a]);
+    const float x = beams.y[a] * beams.z[b] - beams.z[a] * beams.y[b];
+    const float y = beams.z[a] * beams.x[b] - beams.x[a] * beams.z[b];
+    const float z = beams.x[a] * beams.y[b] - beams.y[a] * beams.x[b];
+    const auto squared = [&](std::size_t i) {
+      return beams.x[i] * beams.x[i] + beams.y[i] * beams.y[i] + beams.z[i] * beams.z[i];
+    };
+    const float both = squared(a) * squared(b);
+    if (!(both > 0)) continue;
+    sum += (x * x + y * y + z * z) / both;
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+}  // namespace
+
+DepthCube::DepthCube(const ImageBeams& beams, const Facets& facets, int threads)
+    : grid_(CubeGrid::forSpacing(spacingOf(beams))) {
+  const BeamProjections projections(beams, threads);
+  parallelRanges(faces_.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t face = begin; face < end; ++face)
+      FacePainter(grid_, static_cast<int>(face), beams, facets, projections, faces_[face]).run();
+  });
+}
+
+template <class Accept>
+bool DepthCube::holdsForAll(const DepthPyramid& pyramid, const CubeWindow& window, int level,
+                            const Accept& accept) const {
+  const int side = grid_.side() >> level;
+  const float* const pixels = pyramid.level(level);
+  // One pixel more to both sides of a single one, as for the voxels of a chunk at once.
+  const auto begin = [&](int first, int last) {
+    return std::max(std::min(first >> level, (last >> level) - 1), 0);
+  };
+  const auto end = [&](int first, int last) {
+    return std::min(std::max(last >> level, (first >> level) + 1) + 1, side);
+  };
+  for (int v = begin(window.first_v, window.last_v); v < end(window.first_v, window.last_v); ++v)
+    for (int u = begin(window.first_u, window.last_u); u < end(window.first_u, window.last_u); ++u)
+      if (!accept(pixels[v * side + u])) return false;
+  return true;
+}
+
+bool DepthCube::isInFront(const CubeWindow& window, int level) const {
+  const DepthPyramid& nearest = faceAt(window.face).nearest;
+  if (nearest.empty()) return false;
+  const float limit = 1 / window.farthest;
+  bool any = false;
+  return holdsForAll(nearest, window, level,
+                     [&](float inverse) {
+                       any = any || inverse > 0;
+                       return inverse <= limit;
+                     }) &&
+         any;
+}
+
+bool DepthCube::isAllInFront(const CubeWindow& window, int level) const {
+  const DepthPyramid& complete = faceAt(window.face).complete;
+  const float limit = 1 / window.farthest;
+  return !complete.empty() && holdsForAll(complete, window, level, [&](float inverse) {
+    return inverse > 0 && inverse <= limit;
+  });
+}
+
+bool DepthCube::isAllBehind(const CubeWindow& window, int level) const {
+  const DepthPyramid& farthest = faceAt(window.face).farthest;
+  const float limit = 1 / window.nearest;
+  return farthest.empty() || holdsForAll(farthest, window, level, [&](float inverse) {
+           return inverse == 0 || inverse > limit;
+         });
+}
+
+SpaceBox ChunkBoxes::box(int index_in_chunk) const {
+  const VoxelIndex v = voxelOfChunk({0, 0, 0}, index_in_chunk);
+  const auto x = static_cast<std::size_t>(v.x);
+  const auto y = static_cast<std::size_t>(v.y);
+  const auto z = static_cast<std::size_t>(v.z);
+  return {{min[0][x], min[1][y], min[2][z]}, {max[0][x], max[1][y], max[2][z]}};
+}
+
+namespace {
+
+CSOM_INLINE Lanes load(const ChunkBoxes::Bounds& bounds) {
+  Lanes lanes;
+  std::memcpy(&lanes, bounds.data(), sizeof lanes);
+  return lanes;
+}
+
+/// A level of nearest_of_four.
+struct PixelLevel {
+  const float* pixels;
+  int level;
+  std::int32_t half_side;  ///< of the lowest level
+};
+
+/// The first pixels of the two squares that cover what eight voxels lie behind along an axis.
+struct alignas(kLaneAlignment) Squares {
+  IntLanes first, second;
+};
+
+CSOM_INLINE IntLanes pixelsOf(const IntLanes& from_centre, const PixelLevel& image) {
+  const IntLanes last = IntLanes{} + std::max(2 * image.half_side - 1, 0);
+  const IntLanes pixel = from_centre + image.half_side;
+  const IntLanes positive = pixel < 0 ? IntLanes{} : pixel;
+  return (positive > last ? last : positive) >> image.level;
+}
+/// CubeGrid::window() of eight voxels: bounds along u or v, and inverse depths.
+CSOM_INLINE Squares squaresOf(const Lanes& min, const Lanes& max, const Lanes& near,
+                              const Lanes& far, const PixelLevel& image) {
+  const auto half_side = static_cast<float>(image.half_side);
+  const Lanes lower = min * (min < 0 ? near : far) * half_side;
+  const Lanes upper = max * (max > 0 ? near : far) * half_side;
+  const IntLanes whole_lower = __builtin_convertvector(lower, IntLanes);
+  const IntLanes whole_upper = __builtin_convertvector(upper, IntLanes);
+  const IntLanes ceiling = whole_lower - (__builtin_convertvector(whole_lower, Lanes) < lower);
+  const IntLanes floor = whole_upper + (__builtin_convertvector(whole_upper, Lanes) > upper);
+  const IntLanes last = pixelsOf(floor, image);
+  return {pixelsOf(ceiling - 1, image), last > 0 ? last - 1 : last};
+}
+
+/// Looks through one face at the voxels of a chunk. What a voxel lies behind along u depends on
+/// where it lies along u and the depth alone, and so along v: both are found for eight at once.
+struct alignas(kLaneAlignment) ChunkView {
+  std::array<Lanes, kChunkSide> far;  ///< inverse depth: rows along x
+  std::array<Squares, kChunkSide> u;  ///< rows along x; by y, or the depth if that is z
+  std::array<Squares, kChunkSide> v;  ///< if the depth is x: by z. Else lanes are z or y, by depth
+  std::array<IntLanes, kChunkSide * kChunkSide> seen;  ///< rows along x, by y and z
+};
+
+CSOM_EVERY_PROCESSOR
+void lookAt(const ChunkBoxes& boxes, int face, bool one_face, const PixelLevel& image,
+            ChunkView& view) {
+  const FaceAxes axes(face);
+  const ChunkBoxes::Bounds& first = axes.positive ? boxes.min[axes.depth] : boxes.max[axes.depth];
+  const ChunkBoxes::Bounds& last = axes.positive ? boxes.max[axes.depth] : boxes.min[axes.depth];
+  const float sign = axes.positive ? 1 : -1;
+  // What no voxel is seen at is no matter, but a number.
+  const auto depthOf = [&](float at) { return sign * at > 0 ? sign * at : 1; };
+  if (axes.depth == 0) {
+    Lanes near, far;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      near[i] = 1 / depthOf(first[i]);
+      far[i] = 1 / depthOf(last[i]);
+    }
+    for (std::size_t i = 0; i < kChunkSide; ++i) {
+      view.far[i] = far;
+      view.u[i] = squaresOf(Lanes{} + boxes.min[1][i], Lanes{} + boxes.max[1][i], near, far, image);
+      view.v[i] = squaresOf(Lanes{} + boxes.min[2][i], Lanes{} + boxes.max[2][i], near, far, image);
+    }
+  } else {
+    const std::size_t other = axes.depth == 1 ? 2 : 1;
+    for (std::size_t i = 0; i < kChunkSide; ++i) {
+      const Lanes near = Lanes{} + 1 / depthOf(first[i]);
+      const Lanes far = Lanes{} + 1 / depthOf(last[i]);
+      view.far[i] = far;
+      view.u[i] = squaresOf(load(boxes.min[0]), load(boxes.max[0]), near, far, image);
+      view.v[i] = squaresOf(load(boxes.min[other]), load(boxes.max[other]), near, far, image);
+    }
+  }
+  if (one_face) return;
+  const auto centre = [&](std::size_t axis, std::size_t i) {
+    return boxes.min[axis][i] + boxes.max[axis][i];
+  };
+  for (std::size_t z = 0; z < kChunkSide; ++z)
+    for (std::size_t y = 0; y < kChunkSide; ++y) {
+      const std::array<Lanes, 3> at{load(boxes.min[0]) + load(boxes.max[0]), Lanes{} + centre(1, y),
+                                    Lanes{} + centre(2, z)};
+      const Lanes depth = sign * at[axes.depth];
+      const auto reaches = [&](const Lanes& v) { return depth >= (v < 0 ? -v : v); };
+      view.seen[8 * z + y] = (depth > 0) & reaches(at[axes.u]) & reaches(at[axes.v]);
+    }
+}
+
+/// A row of voxels along x: bit i is that of voxel i. Those that are not seen through the face
+/// pass.
+CSOM_EVERY_PROCESSOR
+std::uint32_t rowInFront(const ChunkView& view, std::size_t y, std::size_t z,
+                         std::size_t depth_axis, bool one_face, const PixelLevel& image) {
+  const std::size_t depth = depth_axis == 2 ? z : y;
+  const Squares& u = view.u[depth];
+  Squares v = view.v[depth_axis == 0 ? z : depth];
+  if (depth_axis != 0) {
+    const std::size_t lane = depth_axis == 1 ? z : y;
+    v = {IntLanes{} + v.first[lane], IntLanes{} + v.second[lane]};
+  }
+  const std::int32_t side = 2 * image.half_side >> image.level;
+  const std::array<IntLanes, 4> squares{v.first * side + u.first, v.first * side + u.second,
+                                        v.second * side + u.first, v.second * side + u.second};
+  Lanes inverse{};
+  for (const IntLanes& square : squares) {
+    Lanes here;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) here[lane] = image.pixels[square[lane]];
+    inverse = inverse > here ? inverse : here;
+  }
+  IntLanes passes = (inverse <= view.far[depth]) & (inverse > 0);
+  if (!one_face) passes |= view.seen[8 * z + y] == 0;
+  std::uint32_t bits = 0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    bits |= static_cast<std::uint32_t>(passes[lane] & 1) << lane;
+  return bits;
+}
+
+}  // namespace
+
+void DepthCube::keepInFront(const ChunkBoxes& boxes, int face, bool one_face, int level,
+                            std::array<std::uint64_t, kVoxelsPerChunk / 64>& voxels) const {
+  const DepthPyramid& pyramid = faceAt(face).nearest_of_four;
+  // Nothing was drawn: pixels of zeros.
+  static constexpr float kNothing = 0;
+  const PixelLevel image = pyramid.empty()
+                               ? PixelLevel{&kNothing, 0, 0}
+                               : PixelLevel{pyramid.level(level), level, grid_.side() / 2};
+  ChunkView view;
+  lookAt(boxes, face, one_face, image, view);
+  const std::size_t depth_axis = FaceAxes(face).depth;
+  for (std::size_t z = 0; z < kChunkSide; ++z) {
+    std::uint64_t layer = 0;
+    for (std::size_t y = 0; y < kChunkSide; ++y)
+      layer |= std::uint64_t{rowInFront(view, y, z, depth_axis, one_face, image)} << (8 * y);
+    voxels[z] &= layer;
+  }
+}
+
+}  // namespace csom::detail

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far a scan sees in each direction: its surfaces drawn on a cube around the sensor.
+#pragma once
+
+#include <csom/core/Grid.h>
+
+#include <array>
+#include <cstdint>
+
+#include "image/CubeGrid.h"
+#include "image/DepthPyramid.h"
+#include "image/Facets.h"
+#include "image/ImageBeams.h"
+#include "util/Lanes.h"
+
+namespace csom::detail {
+
+/// The cubes of the voxels of a chunk: of those at each position along each axis the bounds,
+/// relative to the sensor [m].
+struct ChunkBoxes {
+  using Bounds = std::array<float, kChunkSide>;
+  std::array<Bounds, 3> min, max;
+
+  SpaceBox box(int index_in_chunk) const;
+};
+
+/// A pixel of the cube holds the inverse of the depth [1/m] at which something may be seen there at
+/// the nearest.
+///
+/// What is drawn are the quadrilaterals between four adjacent beams, two of a row and those above
+/// them. Where all four sides are surface, a pixel has the depth of the plane through three corners
+/// at the nearest of its area, else that of the nearest corner. So whatever lies in front of what
+/// was drawn was looked through. Where nothing was drawn, nothing is known: beams get lost.
+class CSOM_OF_ONE_BINARY DepthCube {
+ public:
+  DepthCube(const ImageBeams& beams, const Facets& facets, int threads);
+
+  const CubeGrid& grid() const { return grid_; }
+
+  /// Whether the box lies in front of all that was drawn in its window, and anything was.
+  bool isInFront(const CubeWindow& window, int level) const;
+  /// Of the voxels of a chunk, a bit each, takes out those for which that does not hold although
+  /// their centre is seen through the face, or all of them through this `one_face`. They are so far
+  /// away that none has more than kWindowPixels of the level along an axis.
+  void keepInFront(const ChunkBoxes& boxes, int face, bool one_face, int level,
+                   std::array<std::uint64_t, kVoxelsPerChunk / 64>& voxels) const;
+  /// Whether the box, and every box in it, lies in front of what was drawn: that was everywhere.
+  bool isAllInFront(const CubeWindow& window, int level) const;
+  /// Whether the box, and every box in it, lies behind all that was drawn.
+  bool isAllBehind(const CubeWindow& window, int level) const;
+
+  /// Mean distance of adjacent beams [m] where a face is a depth [m] away; 0 if none pass it.
+  float spacing(int face, float depth) const { return faceAt(face).spacing * depth; }
+
+ private:
+  const DepthFace& faceAt(int face) const { return faces_[static_cast<std::size_t>(face)]; }
+  /// Whether `accept` holds for all pixels of a level that a window has.
+  template <class Accept>
+  bool holdsForAll(const DepthPyramid& pyramid, const CubeWindow& window, int level,
+                   const Accept& accept) const;
+
+  CubeGrid grid_;
+  std::array<DepthFace, CubeGrid::kFaces> faces_;
+};
+
+}  // namespace csom::detail

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "image/FacePainter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "util/Parallel.h"
+
+namespace csom::detail {
+
+namespace {
+
+/// Quadrilaterals of fewer pixels along both axes are drawn as boxes: at most so much too large.
+constexpr int kBoxPixels = 8;
+/// Beams whose directions differ more, as tangent, are not adjacent.
+constexpr float kWidest = 0.25F;
+/// What ended nearer to the sensor passes no pixel: inverse depth [1/m].
+constexpr float kNearest = 1e6F;
+/// Gaps of so many pixels are closed.
+constexpr std::size_t kGapPixels = 4;
+
+}  // namespace
+
+BeamProjections::BeamProjections(const ImageBeams& beams, int threads)
+    : face(beams.size()), u(beams.size()), v(beams.size()), inverse(beams.size()) {
+  parallelRanges(beams.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::array<float, 3> p{beams.x[i], beams.y[i], beams.z[i]};
+      const int own = CubeGrid::faceOf(p[0], p[1], p[2]);
+      const FaceAxes axes(own);
+      const float depth = std::abs(p[axes.depth]);
+      face[i] = static_cast<std::uint8_t>(own);
+      u[i] = p[axes.u] / depth;
+      v[i] = p[axes.v] / depth;
+      inverse[i] = 1 / depth;
+    }
+  });
+  const BeamNeighbours& n = beams.neighbours;
+  for (std::size_t a = 0; a < beams.size(); ++a) {
+    if (n.next[a] == kNoBeam || n.above[a] == kNoBeam) continue;
+    const auto b = static_cast<std::size_t>(n.next[a]);
+    const auto c = static_cast<std::size_t>(n.above[a]);
+    if (n.next[c] == kNoBeam) continue;
+    const auto d = static_cast<std::size_t>(n.next[c]);
+    unsigned shows_on = 0;
+    for (const std::size_t corner : {a, b, c, d}) shows_on |= 1U << face[corner];
+    for (std::size_t i = 0; i < quads.size(); ++i)
+      if ((shows_on >> i & 1U) != 0) quads[i].push_back(static_cast<BeamId>(a));
+  }
+}
+
+/// Inverse depth over a face: that of a plane at its nearest within half a pixel, between the
+/// corners' own.
+struct FacePainter::Plane {
+  Projection corner;
+  float along_u, along_v, margin;
+  float farthest, nearest;
+
+  float at(float u, float v) const {
+    const float inverse =
+        corner.inverse + (along_u * (u - corner.u) + along_v * (v - corner.v)) + margin;
+    return std::min(std::max(inverse, farthest), nearest);
+  }
+};
+
+FacePainter::Plane FacePainter::flat(float inverse) {
+  return {{0, 0, inverse}, 0, 0, 0, inverse, inverse};
+}
+
+void FacePainter::run() {
+  const BeamNeighbours& n = beams_.neighbours;
+  for (const BeamId quad : projections_.quads[static_cast<std::size_t>(face_)]) {
+    const auto a = static_cast<std::size_t>(quad);
+    const auto above = static_cast<std::size_t>(n.above[a]);
+    draw({a, static_cast<std::size_t>(n.next[a]), above, static_cast<std::size_t>(n.next[above])});
+  }
+  if (out_.nearest.empty()) return;
+  out_.spacing = static_cast<float>(spacings_ / drawings_);
+  closeGaps();
+  buildPyramids();
+}
+
+/// Nothing is seen of a beam behind the plane of the sensor: its inverse depth is not positive.
+FacePainter::Projection FacePainter::project(std::size_t beam) const {
+  if (projections_.face[beam] == face_)
+    return {projections_.u[beam], projections_.v[beam], projections_.inverse[beam]};
+  const std::array<float, 3> p{beams_.x[beam], beams_.y[beam], beams_.z[beam]};
+  const float depth = axes_.positive ? p[axes_.depth] : -p[axes_.depth];
+  if (!(depth > 0)) return {0, 0, 0};
+  return {p[axes_.u] / depth, p[axes_.v] / depth, 1 / depth};
+}
+
+void FacePainter::draw(const Corners& corners) {
+  const std::array<Projection, 4> at{project(corners[0]), project(corners[1]), project(corners[2]),
+                                     project(corners[3])};
+  const auto [min_u, max_u] = std::minmax({at[0].u, at[1].u, at[2].u, at[3].u});
+  const auto [min_v, max_v] = std::minmax({at[0].v, at[1].v, at[2].v, at[3].v});
+  const auto [farthest, nearest] =
+      std::minmax({at[0].inverse, at[1].inverse, at[2].inverse, at[3].inverse});
+  if (!(farthest > 0) || !(nearest < kNearest)) return;
+  const float spacing = std::max(max_u - min_u, max_v - min_v);
+  const float off_centre = std::max({min_u * min_u, max_u * max_u, min_v * min_v, max_v * max_v});
+  if (!(spacing < kWidest * (1 + off_centre))) return;
+  if (max_u < -1 || min_u > 1 || max_v < -1 || min_v > 1) return;
+  const int first_u = grid_.firstPixel(min_u);
+  const int last_u = grid_.lastPixel(max_u);
+  const int first_v = grid_.firstPixel(min_v);
+  const int last_v = grid_.lastPixel(max_v);
+  prepare(first_u, last_u, first_v, last_v);
+  spacings_ += spacing;
+  ++drawings_;
+  const bool is_small = last_u - first_u < kBoxPixels && last_v - first_v < kBoxPixels;
+  const bool is_surface = isSurface(corners);
+  if (is_small && (!is_surface || (first_u == last_u && first_v == last_v))) {
+    for (int v = first_v; v <= last_v; ++v)
+      for (int u = first_u; u <= last_u; ++u) put(u, v, nearest);
+    return;
+  }
+  for (const Triangle& triangle : {Triangle{at[0], at[1], at[2]}, Triangle{at[1], at[3], at[2]}}) {
+    const Plane plane = is_surface ? planeThrough(triangle) : flat(nearest);
+    if (is_small) {
+      for (int v = first_v; v <= last_v; ++v)
+        for (int u = first_u; u <= last_u; ++u)
+          put(u, v, plane.at(grid_.centreOf(u), grid_.centreOf(v)));
+    } else {
+      drawTriangle(triangle, plane);
+    }
+  }
+}
+
+/// Whether all four sides are.
+bool FacePainter::isSurface(const Corners& corners) const {
+  return facets_.to_next[corners[0]] != 0 && facets_.to_next[corners[2]] != 0 &&
+         facets_.to_above[corners[0]] != 0 && facets_.to_above[corners[1]] != 0 &&
+         beams_.neighbours.above[corners[1]] == static_cast<BeamId>(corners[3]);
+}
+
+/// Twice the area, positive if a, b, c turn from u to v.
+template <class Triangle>
+static float areaOf(const Triangle& t) {
+  return (t[1].u - t[0].u) * (t[2].v - t[0].v) - (t[2].u - t[0].u) * (t[1].v - t[0].v);
+}
+
+FacePainter::Plane FacePainter::planeThrough(const Triangle& t) const {
+  const auto [farthest, nearest] = std::minmax({t[0].inverse, t[1].inverse, t[2].inverse});
+  const float area = areaOf(t);
+  if (area == 0) return flat(nearest);
+  const float to_b = t[1].inverse - t[0].inverse;
+  const float to_c = t[2].inverse - t[0].inverse;
+  const float along_u = (to_b * (t[2].v - t[0].v) - to_c * (t[1].v - t[0].v)) / area;
+  const float along_v = (to_c * (t[1].u - t[0].u) - to_b * (t[2].u - t[0].u)) / area;
+  const float margin = (std::abs(along_u) + std::abs(along_v)) / static_cast<float>(side_);
+  return {t[0], along_u, along_v, margin, farthest, nearest};
+}
+
+/// Each pixel whose centre lies in it, its border included.
+void FacePainter::drawTriangle(const Triangle& t, const Plane& plane) {
+  const auto [min_u, max_u] = std::minmax({t[0].u, t[1].u, t[2].u});
+  const auto [min_v, max_v] = std::minmax({t[0].v, t[1].v, t[2].v});
+  const int first_u = grid_.firstPixel(min_u);
+  const int last_u = grid_.lastPixel(max_u);
+  const int last_v = grid_.lastPixel(max_v);
+  const float turn = areaOf(t) > 0 ? 1.0F : -1.0F;
+  const auto isInside = [&](const Projection& from, const Projection& to, float u, float v) {
+    return ((to.u - from.u) * (v - from.v) - (to.v - from.v) * (u - from.u)) * turn >= 0;
+  };
+  for (int v = grid_.firstPixel(min_v); v <= last_v; ++v) {
+    const float at_v = grid_.centreOf(v);
+    for (int u = first_u; u <= last_u; ++u) {
+      const float at_u = grid_.centreOf(u);
+      if (isInside(t[0], t[1], at_u, at_v) && isInside(t[1], t[2], at_u, at_v) &&
+          isInside(t[2], t[0], at_u, at_v))
+        put(u, v, plane.at(at_u, at_v));
+    }
+  }
+}
+
+/// Makes room when the first quadrilateral comes, and notes where they lie.
+void FacePainter::prepare(int first_u, int last_u, int first_v, int last_v) {
+  if (image_ == nullptr) {
+    side_ = static_cast<std::size_t>(grid_.side());
+    out_.nearest.allocate(grid_.side());
+    image_ = out_.nearest.level(0);
+    drawn_ = {side_, 0, side_, 0};
+  }
+  drawn_.first_u = std::min(drawn_.first_u, static_cast<std::size_t>(first_u));
+  drawn_.end_u = std::max(drawn_.end_u, static_cast<std::size_t>(last_u) + 1);
+  drawn_.first_v = std::min(drawn_.first_v, static_cast<std::size_t>(first_v));
+  drawn_.end_v = std::max(drawn_.end_v, static_cast<std::size_t>(last_v) + 1);
+}
+
+void FacePainter::put(int u, int v, float inverse) {
+  float& pixel = image_[static_cast<std::size_t>(v) * side_ + static_cast<std::size_t>(u)];
+  pixel = std::max(pixel, inverse);
+}
+
+namespace {
+
+void closeLine(const float* before, std::size_t stride, std::size_t size, float* pixels,
+               std::size_t pixel_stride) {
+  std::size_t last_drawn = size;  // none yet
+  for (std::size_t i = 0; i < size; ++i) {
+    const float end = before[i * stride];
+    if (end == 0) continue;
+    if (last_drawn + 1 < i && i - last_drawn <= kGapPixels + 1) {
+      const float inverse = std::max(end, before[last_drawn * stride]);
+      for (std::size_t gap = last_drawn + 1; gap < i; ++gap)
+        pixels[gap * pixel_stride] = std::max(pixels[gap * pixel_stride], inverse);
+    }
+    last_drawn = i;
+  }
+}
+
+}  // namespace
+
+/// Gives gaps of up to kGapPixels between drawn pixels of a row or a column the depth of the nearer
+/// end: single beams that got lost, and slivers where beams of two rows do not face.
+void FacePainter::closeGaps() {
+  const std::size_t width = drawn_.end_u - drawn_.first_u;
+  const std::size_t height = drawn_.end_v - drawn_.first_v;
+  float* const first = image_ + drawn_.first_v * side_ + drawn_.first_u;
+  std::vector<float> before(width * height);
+  for (std::size_t v = 0; v < height; ++v)
+    std::copy_n(first + v * side_, width, before.data() + v * width);
+  for (std::size_t v = 0; v < height; ++v)
+    closeLine(before.data() + v * width, 1, width, first + v * side_, 1);
+  for (std::size_t u = 0; u < width; ++u)
+    closeLine(before.data() + u, width, height, first + u, side_);
+}
+
+void FacePainter::buildPyramids() {
+  for (DepthPyramid* pyramid : {&out_.complete, &out_.farthest}) {
+    pyramid->allocate(grid_.side());
+    for (std::size_t v = drawn_.first_v; v < drawn_.end_v; ++v)
+      std::copy(image_ + v * side_ + drawn_.first_u, image_ + v * side_ + drawn_.end_u,
+                pyramid->level(0) + v * side_ + drawn_.first_u);
+  }
+  out_.nearest_of_four.allocate(grid_.side());
+  gatherFour(0);
+  for (int level = 1; level < grid_.levels(); ++level) {
+    shrink(out_.nearest, level, [](float a, float b) { return a > b ? a : b; });
+    gatherFour(level);
+    shrink(out_.complete, level, [](float a, float b) {
+      const float larger = a > b ? a : b;
+      return a == 0 || b == 0 ? 0 : larger;
+    });
+    shrink(out_.farthest, level, [](float a, float b) {
+      const float smaller = a < b ? a : b;
+      const float larger = a > b ? a : b;
+      return smaller == 0 ? larger : smaller;
+    });
+  }
+}
+
+/// Makes each pixel of a level of four of the level below it, where anything was drawn.
+template <class Choose>
+void FacePainter::shrink(DepthPyramid& pyramid, int level, const Choose& choose) const {
+  const std::size_t side = side_ >> level;
+  const float* const from = pyramid.level(level - 1);
+  float* const to = pyramid.level(level);
+  const std::size_t end_u = ((drawn_.end_u - 1) >> level) + 1;
+  const std::size_t end_v = ((drawn_.end_v - 1) >> level) + 1;
+  for (std::size_t v = drawn_.first_v >> level; v < end_v; ++v) {
+    const float* const upper = from + 4 * v * side;
+    const float* const lower = upper + 2 * side;
+    for (std::size_t u = drawn_.first_u >> level; u < end_u; ++u)
+      to[v * side + u] =
+          choose(choose(upper[2 * u], upper[2 * u + 1]), choose(lower[2 * u], lower[2 * u + 1]));
+  }
+}
+
+/// Makes the pixels of a level of nearest_of_four, where anything was drawn.
+void FacePainter::gatherFour(int level) {
+  const std::size_t side = side_ >> level;
+  const float* const from = out_.nearest.level(level);
+  float* const to = out_.nearest_of_four.level(level);
+  const auto first = [&](std::size_t pixel) {
+    return (pixel >> level) - (pixel >> level > 0 ? 1 : 0);
+  };
+  const std::size_t end_u = ((drawn_.end_u - 1) >> level) + 1;
+  const std::size_t end_v = ((drawn_.end_v - 1) >> level) + 1;
+  for (std::size_t v = first(drawn_.first_v); v < end_v; ++v) {
+    const float* const row = from + v * side;
+    const float* const next_row = v + 1 < side ? row + side : row;
+    for (std::size_t u = first(drawn_.first_u); u < end_u; ++u) {
+      const std::size_t next = u + 1 < side ? u + 1 : u;
+      to[v * side + u] =
+          std::max(std::max(row[u], row[next]), std::max(next_row[u], next_row[next]));
+    }
+  }
+}
+
+}  // namespace csom::detail

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "image/FacetVotes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "image/SurfaceWeights.h"
+#include "util/Lanes.h"
+
+namespace csom::detail {
+
+namespace {
+
+constexpr float kPieceVoxels = 0.4F;
+constexpr std::int32_t kMostPieces = 2047;
+/// Of a score of 1.
+constexpr float kShares = 65536;
+
+std::int32_t voxelOf(std::int32_t position) {
+  return position >> HalfStepPosition::kBits;
+}
+
+/// Points that divide a facet: their voxels and weights. Room for whole vectors.
+struct FacetPoints {
+  static constexpr int kMost = kMostPieces - 1 + static_cast<int>(kLanes);
+  std::array<std::int32_t, kMost> x, y, z;
+  std::array<std::uint32_t, kMost> weight;
+};
+
+/// One coordinate of the points from 1 to pieces − 1, eight at a time.
+///
+/// `pieces` is odd, and so are the ends: no point lies on a border between voxels, all are at least
+/// 1/pieces of a unit away from it. What is left out of a step adds up to less than that.
+CSOM_INLINE void divide(std::int32_t from, std::int32_t to, std::int32_t pieces,
+                        std::int32_t* voxels) {
+  using LongLanes = std::uint64_t __attribute__((vector_size(kLanes * sizeof(std::uint64_t))));
+  constexpr int kFractionBits = 24;
+  constexpr int kShift = kFractionBits + HalfStepPosition::kBits;
+  static_assert(kMostPieces * kMostPieces < 1 << kFractionBits, "steps are exact enough");
+  // Vectors shift unsigned numbers only: positions are counted from far below.
+  constexpr std::int32_t kBelow = 1 << 24;  // voxels
+  const std::int64_t step = (std::int64_t{to} - from) * (1 << kFractionBits) / pieces;
+  const std::int64_t start =
+      std::int64_t{from} * (1 << kFractionBits) + (std::int64_t{kBelow} << kShift);
+  LongLanes at;
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    at[lane] = static_cast<std::uint64_t>(start + static_cast<std::int64_t>(lane + 1) * step);
+  const auto steps = static_cast<std::uint64_t>(step * static_cast<std::int64_t>(kLanes));
+  for (std::int32_t i = 1; i < pieces; i += static_cast<std::int32_t>(kLanes)) {
+    const IntLanes lanes = __builtin_convertvector(at >> kShift, IntLanes) - kBelow;
+    std::memcpy(voxels + i - 1, &lanes, sizeof lanes);
+    at += steps;
+  }
+}
+
+CSOM_EVERY_PROCESSOR
+void dividePoints(const HalfStepPosition& from, const HalfStepPosition& to, std::int32_t pieces,
+                  float piece, FacetPoints& points) {
+  divide(from.x, to.x, pieces, points.x.data());
+  divide(from.y, to.y, pieces, points.y.data());
+  divide(from.z, to.z, pieces, points.z.data());
+  IntLanes count{1, 2, 3, 4, 5, 6, 7, 8};
+  for (std::int32_t i = 1; i < pieces; i += static_cast<std::int32_t>(kLanes)) {
+    const IntLanes to_end = pieces - count;
+    const IntLanes nearer = count < to_end ? count : to_end;
+    const Lanes distance = piece * __builtin_convertvector(nearer, Lanes);
+    const IntLanes weights =
+        __builtin_convertvector(kFacetWeight / (1 + distance * distance) + 0.5F, IntLanes);
+    std::memcpy(points.weight.data() + i - 1, &weights, sizeof weights);
+    count += static_cast<std::int32_t>(kLanes);
+  }
+}
+
+class FacetDrawing {
+ public:
+  FacetDrawing(const ImageBeams& beams, const Options& options, VoxelWords& words)
+      : beams_(beams),
+        words_(words),
+        pieces_per_metre_(1 / (kPieceVoxels * static_cast<float>(options.resolution))),
+        surely_whole_(0.99F / (pieces_per_metre_ * pieces_per_metre_)) {}
+
+  void draw(std::size_t a, std::size_t b) {
+    const float dx = beams_.x[b] - beams_.x[a];
+    const float dy = beams_.y[b] - beams_.y[a];
+    const float dz = beams_.z[b] - beams_.z[a];
+    const float squared = dx * dx + dy * dy + dz * dz;
+    if (squared < surely_whole_) return;  // one piece: nothing between the hits
+    const float length = std::sqrt(squared);
+    const auto wanted = static_cast<std::int32_t>(
+        std::min(std::ceil(length * pieces_per_metre_), static_cast<float>(kMostPieces)));
+    const std::int32_t pieces = wanted | 1;
+    dividePoints(beams_.positions[beams_.neighbours.point[a]],
+                 beams_.positions[beams_.neighbours.point[b]], pieces,
+                 length / static_cast<float>(pieces), points_);
+    const auto half = static_cast<std::size_t>(pieces) / 2;
+    vote(0, half, beams_.label[a]);
+    vote(half, static_cast<std::size_t>(pieces) - 1, beams_.label[b]);
+  }
+
+ private:
+  void vote(std::size_t begin, std::size_t end, ClassId label) {
+    for (std::size_t i = begin; i < end; ++i)
+      words_.addFacet(points_.x[i], points_.y[i], points_.z[i], label, points_.weight[i]);
+  }
+
+  const ImageBeams& beams_;
+  VoxelWords& words_;
+  float pieces_per_metre_;
+  float surely_whole_;  ///< square of a length that is one piece [m²]
+  FacetPoints points_;
+};
+
+}  // namespace
+
+void addHits(const PreparedScan& scan, const ImageBeams& beams, const Options& options,
+             std::size_t begin, std::size_t end, VoxelWords& words) {
+  const ImagePoints& points = scan.image;
+  const auto classes = static_cast<std::size_t>(options.number_of_classes);
+  for (std::size_t i = begin; i < end; ++i) {
+    const HalfStepPosition& p = beams.positions[i];
+    const std::int32_t x = voxelOf(p.x);
+    const std::int32_t y = voxelOf(p.y);
+    const std::int32_t z = voxelOf(p.z);
+    if (points.scores.empty()) {
+      words.addHit(x, y, z, points.labels[i], 1);
+      continue;
+    }
+    for (std::size_t k = 0; k < classes; ++k) {
+      const auto share =
+          static_cast<std::uint32_t>(points.scores[i * classes + k] * kShares + 0.5F);
+      if (share > 0) words.addHit(x, y, z, static_cast<ClassId>(k), share);
+    }
+  }
+}
+
+void addFacets(const ImageBeams& beams, const Facets& facets, const Options& options,
+               std::size_t begin, std::size_t end, VoxelWords& words) {
+  FacetDrawing drawing(beams, options, words);
+  const BeamNeighbours& n = beams.neighbours;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (facets.to_next[i] != 0) drawing.draw(i, static_cast<std::size_t>(n.next[i]));
+    if (facets.to_above[i] != 0) drawing.draw(i, static_cast<std::size_t>(n.above[i]));
+  }
+}
+
+}  // namespace csom::detail

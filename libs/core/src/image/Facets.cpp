@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "image/Facets.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "util/Parallel.h"
+
+namespace csom::detail {
+
+namespace {
+
+constexpr float kShortVoxels = 1.5F;
+constexpr float kLongest = 20;  // [m]
+/// Square of the cosine of 30°.
+constexpr float kInLine = 0.75F;
+constexpr float kExactFromVoxels = 5;
+/// Of a line that is explained by errors of ranges, at right angles to the beam [m].
+constexpr float kRangeError = 0.2F;
+constexpr float kFlatRise = 0.08F;
+constexpr float kFlatVoxels = 0.4F;
+
+constexpr float square(float v) {
+  return v * v;
+}
+
+struct Vector {
+  float x, y, z;
+};
+float dot(const Vector& a, const Vector& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+float squaredNorm(const Vector& a) {
+  return dot(a, a);
+}
+float squaredCross(const Vector& a, const Vector& b) {
+  return squaredNorm({a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x});
+}
+
+/// Lengths that depend on the resolution [m²].
+struct Limits {
+  explicit Limits(float resolution)
+      : short_squared(square(kShortVoxels * resolution)),
+        exact_from_squared(square(kExactFromVoxels * resolution)),
+        flat_squared(square(kFlatVoxels * resolution)) {}
+  float short_squared;
+  float exact_from_squared;
+  float flat_squared;
+};
+
+class SegmentTest {
+ public:
+  SegmentTest(const ImageBeams& beams, const Limits& limits) : beams_(beams), limits_(limits) {}
+
+  /// From beam a to b; `before` lies before a, `after` behind b, or there is none.
+  bool isSurface(BeamId a, BeamId b, BeamId before, BeamId after, bool across_rows) const {
+    if (b == kNoBeam || isFree(a) || isFree(b)) return false;
+    const Vector from = at(a);
+    const Vector to = at(b);
+    const Vector segment = between(from, to);
+    const float squared = squaredNorm(segment);
+    if (squared < limits_.short_squared) return true;
+    if (squared > square(kLongest)) return false;
+    // (0.2 m · sin)² · squared · farther² without a quotient.
+    const float tolerance = square(kRangeError) * squaredCross(from, to);
+    const float farther = std::max(squaredNorm(from), squaredNorm(to)) * squared;
+    const bool any_class = beams_.label[index(a)] == beams_.label[index(b)];
+    const bool flat = across_rows && square(segment.z) < square(kFlatRise) * squared;
+    if (!any_class && !flat) return false;
+    const auto continues = [&](const Vector& other) {
+      const float cosine = dot(other, segment);
+      if (!(cosine > 0)) return false;
+      const float other_squared = squaredNorm(other);
+      const float deviation = squaredCross(segment, other);  // × other_squared
+      if (!(square(cosine) > kInLine * squared * other_squared)) return false;
+      if (!(squared < limits_.exact_from_squared ||
+            deviation * farther < tolerance * other_squared))
+        return false;
+      return any_class || deviation < limits_.flat_squared * other_squared;
+    };
+    return (before != kNoBeam && !isFree(before) && continues(between(at(before), from))) ||
+           (after != kNoBeam && !isFree(after) && continues(between(to, at(after))));
+  }
+
+ private:
+  static std::size_t index(BeamId beam) { return static_cast<std::size_t>(beam); }
+  bool isFree(BeamId beam) const { return beams_.label[index(beam)] == kFreeClass; }
+  Vector at(BeamId beam) const {
+    const std::size_t i = index(beam);
+    return {beams_.x[i], beams_.y[i], beams_.z[i]};
+  }
+  static Vector between(const Vector& a, const Vector& b) {
+    return {b.x - a.x, b.y - a.y, b.z - a.z};
+  }
+
+  const ImageBeams& beams_;
+  Limits limits_;
+};
+
+}  // namespace
+
+Facets::Facets(const ImageBeams& beams, const Options& options)
+    : to_next(beams.size()), to_above(beams.size()) {
+  const SegmentTest test(beams, Limits(static_cast<float>(options.resolution)));
+  const BeamNeighbours& n = beams.neighbours;
+  parallelRanges(beams.size(), options.threads, [&](std::size_t begin, std::size_t end) {
+    const auto beyond = [](const std::vector<BeamId>& side, BeamId beam) {
+      return beam == kNoBeam ? kNoBeam : side[static_cast<std::size_t>(beam)];
+    };
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto beam = static_cast<BeamId>(i);
+      to_next[i] =
+          test.isSurface(beam, n.next[i], n.previous[i], beyond(n.next, n.next[i]), false) ? 1 : 0;
+      to_above[i] =
+          test.isSurface(beam, n.above[i], n.below[i], beyond(n.above, n.above[i]), true) ? 1 : 0;
+    }
+  });
+}
+
+}  // namespace csom::detail

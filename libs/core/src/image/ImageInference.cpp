@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "image/ImageInference.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "image/DepthCube.h"
+#include "image/FacetVotes.h"
+#include "image/Facets.h"
+#include "image/ImageBeams.h"
+#include "image/ProjectiveFreeSpace.h"
+#include "image/VoxelWords.h"
+#include "inference/FreeSpaceRays.h"
+#include "util/Parallel.h"
+#include "util/Parts.h"
+
+namespace csom::detail {
+
+namespace {
+
+/// Everything that is known about a chunk: cells of the parts, and free voxels.
+struct ChunkSource {
+  std::uint64_t key;
+  std::uint32_t part;  ///< kFreePart: `index` is that of a FreeChunk
+  std::uint32_t index;
+
+  static constexpr std::uint32_t kFreePart = ~std::uint32_t{0};
+  friend bool operator<(const ChunkSource& a, const ChunkSource& b) {
+    return std::tie(a.key, a.part, a.index) < std::tie(b.key, b.part, b.index);
+  }
+};
+
+class ImageInference {
+ public:
+  ImageInference(const PreparedScan& scan, const Options& options)
+      : scan_(scan), options_(options), beams_(scan, options), facets_(beams_, options) {}
+
+  ScanIncrements run(ScanReport& report) {
+    vote();
+    findFree();
+    const std::vector<ChunkSource> sources = sortedSources();
+    std::vector<std::size_t> begin;
+    for (std::size_t i = 0; i < sources.size(); ++i)
+      if (i == 0 || sources[i].key != sources[i - 1].key) begin.push_back(i);
+    begin.push_back(sources.size());
+    ScanIncrements out(begin.size() - 1);
+    std::atomic<std::size_t> occupied{0};
+    std::atomic<std::size_t> free{0};
+    parallelRanges(out.size(), options_.threads, [&](std::size_t first, std::size_t last) {
+      Figures here;
+      for (std::size_t i = first; i < last; ++i)
+        out[i] = combine(sources.data() + begin[i], sources.data() + begin[i + 1], here);
+      occupied += here.occupied;
+      free += here.free;
+    });
+    report.voxels_updated += occupied;
+    report.free_voxels += free;
+    return out;
+  }
+
+ private:
+  struct Figures {
+    std::size_t occupied = 0;
+    std::size_t free = 0;
+  };
+
+  /// Each part has words of its own: which part has what does not change their sum.
+  void vote() {
+    const std::size_t points = scan_.image.points.size();
+    const std::size_t count = partsFor(points, options_.threads);
+    parts_.resize(count);
+    parallelRanges(count, options_.threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t part = first; part < last; ++part) {
+        addHits(scan_, beams_, options_, partBegin(points, part, count),
+                partBegin(points, part + 1, count), parts_[part]);
+        addFacets(beams_, facets_, options_, partBegin(beams_.size(), part, count),
+                  partBegin(beams_.size(), part + 1, count), parts_[part]);
+      }
+    });
+  }
+
+  void findFree() {
+    switch (options_.free_space.mode) {
+      case FreeSpace::Projective:
+        free_ = findFreeSpace(beams_, DepthCube(beams_, facets_, options_.threads), scan_.origin,
+                              options_);
+        break;
+      case FreeSpace::Raycast:
+        castRays();
+        break;
+      case FreeSpace::Sampled:
+      case FreeSpace::None:
+        break;
+    }
+  }
+
+  void castRays() {
+    ScanReport rays;
+    for (const ChunkIncrements& chunk : castFreeSpace(scan_, options_, rays)) {
+      const ChunkIndex base = chunkOf(beams_.base);
+      FreeChunk free{VoxelWords::keyOf(
+                         {chunk.chunk.x - base.x, chunk.chunk.y - base.y, chunk.chunk.z - base.z}),
+                     {}};
+      for (const CountIncrement& increment : chunk.increments) {
+        free.free.voxels[increment.voxel >> 6U] |= std::uint64_t{1} << (increment.voxel & 63U);
+        free.free.count = increment.count;
+      }
+      free_.push_back(free);
+    }
+  }
+
+  std::vector<ChunkSource> sortedSources() const {
+    std::vector<ChunkSource> sources;
+    for (std::size_t part = 0; part < parts_.size(); ++part)
+      for (std::size_t i = 0; i < parts_[part].chunkCount(); ++i)
+        sources.push_back({parts_[part].chunk(i).key, static_cast<std::uint32_t>(part),
+                           static_cast<std::uint32_t>(i)});
+    for (std::size_t i = 0; i < free_.size(); ++i)
+      sources.push_back({free_[i].key, ChunkSource::kFreePart, static_cast<std::uint32_t>(i)});
+    std::sort(sources.begin(), sources.end());
+    return sources;
+  }
+
+  /// The increments of one chunk.
+  ChunkIncrements combine(const ChunkSource* first, const ChunkSource* last,
+                          Figures& figures) const {
+    const ChunkIndex from_base = VoxelWords::chunkOfKey(first->key);
+    const ChunkIndex base = chunkOf(beams_.base);
+    ChunkIncrements out{{base.x + from_base.x, base.y + from_base.y, base.z + from_base.z}, {}, {}};
+    if (!isAddressable(out.chunk)) return out;
+    if ((last - 1)->part == ChunkSource::kFreePart) out.free = free_[(--last)->index].free;
+    VoxelWords several;
+    if (last - first == 1) {
+      appendWords(parts_[first->part], parts_[first->part].chunk(first->index), out, figures);
+    } else if (last - first > 1) {
+      for (const ChunkSource* source = first; source != last; ++source)
+        several.add(parts_[source->part], parts_[source->part].chunk(source->index));
+      appendWords(several, several.chunk(0), out, figures);
+    }
+    std::size_t free_voxels = 0;
+    for (const std::uint64_t bits : out.free.voxels)
+      free_voxels += static_cast<std::size_t>(__builtin_popcountll(bits));
+    if (free_voxels == 0) out.free.count = 0;
+    figures.free += free_voxels;
+    return out;
+  }
+
+  /// Voxels with surface, which are therefore not free.
+  static void appendWords(const VoxelWords& words, const VoxelWords::Cells& cells,
+                          ChunkIncrements& out, Figures& figures) {
+    constexpr std::size_t kGroup = 8;
+    for (std::size_t first = 0; first < kVoxelsPerChunk; first += kGroup) {
+      VoxelWords::Cell any = 0;
+      for (std::size_t i = 0; i < kGroup; ++i) any |= cells.cell[first + i];
+      if (any == 0) continue;
+      for (std::size_t voxel = first; voxel < first + kGroup; ++voxel) {
+        if (cells.cell[voxel] == 0) continue;
+        words.appendWord(static_cast<std::uint16_t>(voxel), cells.cell[voxel], out.increments);
+        out.free.voxels[voxel >> 6U] &= ~(std::uint64_t{1} << (voxel & 63U));
+        ++figures.occupied;
+      }
+    }
+  }
+
+  const PreparedScan& scan_;
+  const Options& options_;
+  ImageBeams beams_;
+  Facets facets_;
+  std::vector<VoxelWords> parts_;
+  std::vector<FreeChunk> free_;
+};
+
+}  // namespace
+
+ScanIncrements inferFromImage(const PreparedScan& scan, const Options& options,
+                              ScanReport& report) {
+  return ImageInference(scan, options).run(report);
+}
+
+}  // namespace csom::detail

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "image/ProjectiveFreeSpace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "image/SurfaceWeights.h"
+#include "image/VoxelWords.h"
+#include "util/Parallel.h"
+
+namespace csom::detail {
+
+namespace {
+
+/// Half the edge of the cube that must be free, in voxels: a tenth is left on each side.
+constexpr float kHalfEdge = 0.4F;
+
+/// A cube of chunks: 2^level a side, at this position in units of it.
+struct Node {
+  int level;
+  std::int32_t x, y, z;
+};
+
+class FreeSpaceSearch {
+ public:
+  FreeSpaceSearch(const ImageBeams& beams, const DepthCube& cube, const Eigen::Vector3d& origin,
+                  const Options& options)
+      : cube_(cube), resolution_(static_cast<float>(options.resolution)) {
+    const std::array<std::int32_t, 3> base{beams.base.x, beams.base.y, beams.base.z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // As beams end at odd multiples of 1/256 voxel, so the sensor lies at one.
+      constexpr double kSteps = 1 << (HalfStepPosition::kBits - 1);
+      const double voxels = origin[static_cast<int>(axis)] / options.resolution - base[axis];
+      sensor_[axis] = static_cast<float>((std::floor(voxels * kSteps) + 0.5) / kSteps);
+    }
+    float reach = 0;
+    for (std::size_t i = 0; i < beams.size(); ++i)
+      reach = std::max({reach, std::abs(beams.x[i]), std::abs(beams.y[i]), std::abs(beams.z[i])});
+    const float chunks = reach / resolution_ / kChunkSide + 2;
+    while (static_cast<float>(1 << root_level_) < chunks) ++root_level_;
+  }
+
+  std::vector<FreeChunk> run(int threads) {
+    // Enough pieces for threads to share.
+    std::vector<Node> nodes;
+    const int level = std::max(0, root_level_ - 3);
+    const std::int32_t half = 1 << (root_level_ - level);
+    for (std::int32_t z = -half; z < half; ++z)
+      for (std::int32_t y = -half; y < half; ++y)
+        for (std::int32_t x = -half; x < half; ++x) nodes.push_back({level, x, y, z});
+    std::vector<FreeChunk> out;
+    std::mutex mutex;
+    parallelRanges(nodes.size(), threads, [&](std::size_t begin, std::size_t end) {
+      std::vector<FreeChunk> found;
+      for (std::size_t i = begin; i < end; ++i) search(nodes[i], found);
+      const std::lock_guard<std::mutex> lock(mutex);
+      out.insert(out.end(), found.begin(), found.end());
+    });
+    return out;
+  }
+
+ private:
+  /// Bounds along an axis of the cube of a voxel, relative to the sensor [m].
+  float lower(std::int32_t voxel, std::size_t axis) const {
+    return (static_cast<float>(voxel) + (0.5F - kHalfEdge) - sensor_[axis]) * resolution_;
+  }
+  float upper(std::int32_t voxel, std::size_t axis) const {
+    return (static_cast<float>(voxel) + (0.5F + kHalfEdge) - sensor_[axis]) * resolution_;
+  }
+  /// The box around the cubes of the voxels of a node.
+  SpaceBox boxOf(const Node& node) const {
+    const std::int32_t edge = kChunkSide << node.level;
+    SpaceBox box{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int32_t first = (axis == 0 ? node.x : axis == 1 ? node.y : node.z) * edge;
+      box.min[axis] = lower(first, axis);
+      box.max[axis] = upper(first + edge - 1, axis);
+    }
+    return box;
+  }
+  ChunkBoxes boxesOf(const Node& chunk) const {
+    ChunkBoxes boxes{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int32_t first = (axis == 0 ? chunk.x : axis == 1 ? chunk.y : chunk.z) * kChunkSide;
+      for (std::int32_t i = 0; i < kChunkSide; ++i) {
+        boxes.min[axis][static_cast<std::size_t>(i)] = lower(first + i, axis);
+        boxes.max[axis][static_cast<std::size_t>(i)] = upper(first + i, axis);
+      }
+    }
+    return boxes;
+  }
+  int levelFor(float nearest) const {
+    return cube_.grid().levelFor(2 * kHalfEdge * resolution_, nearest);
+  }
+
+  void search(const Node& node, std::vector<FreeChunk>& out) const {
+    const CubeWindows windows = cube_.grid().windowsOf(boxOf(node));
+    if (std::all_of(windows.begin(), windows.end(), [&](const CubeWindow& window) {
+          return cube_.isAllBehind(surrounded(window), levelOf(window));
+        }))
+      return;
+    if (node.level == 0) {
+      searchChunk(node, windows, out);
+      return;
+    }
+    for (std::int32_t z = 0; z < 2; ++z)
+      for (std::int32_t y = 0; y < 2; ++y)
+        for (std::int32_t x = 0; x < 2; ++x)
+          search({node.level - 1, 2 * node.x + x, 2 * node.y + y, 2 * node.z + z}, out);
+  }
+
+  /// Coarse enough to look at all of a window, and no finer than any of its voxels is looked at.
+  int levelOf(const CubeWindow& window) const {
+    return window.nearest > 0 ? std::max(cube_.grid().levelOf(window), levelFor(window.nearest))
+                              : cube_.grid().levels() - 1;
+  }
+
+  /// With the pixels that may be looked at beside those of a voxel.
+  CubeWindow surrounded(const CubeWindow& window) const {
+    if (!(window.nearest > 0)) return window;
+    const int pixels = 1 << levelFor(window.nearest);
+    const int last = cube_.grid().side() - 1;
+    CubeWindow larger = window;
+    larger.first_u = std::max(window.first_u - pixels, 0);
+    larger.last_u = std::min(window.last_u + pixels, last);
+    larger.first_v = std::max(window.first_v - pixels, 0);
+    larger.last_v = std::min(window.last_v + pixels, last);
+    return larger;
+  }
+
+  void searchChunk(const Node& node, const CubeWindows& windows,
+                   std::vector<FreeChunk>& out) const {
+    FreeChunk chunk{VoxelWords::keyOf({node.x, node.y, node.z}), {{}, countAt(windows)}};
+    const bool reaches_sensor = std::any_of(windows.begin(), windows.end(),
+                                            [](const CubeWindow& w) { return !(w.nearest > 0); });
+    if (reaches_sensor) {
+      searchAroundSensor(boxesOf(node), chunk);
+    } else {
+      chunk.free.voxels.fill(~std::uint64_t{0});
+      const bool one_face = windows.size() == 1;
+      for (const CubeWindow& window : windows)
+        if (!one_face || !cube_.isAllInFront(surrounded(window), levelOf(window)))
+          cube_.keepInFront(boxesOf(node), window.face, one_face, levelFor(window.nearest),
+                            chunk.free.voxels);
+    }
+    if (isAny(chunk)) out.push_back(chunk);
+  }
+
+  /// Voxel by voxel, each at a level of its own.
+  void searchAroundSensor(const ChunkBoxes& boxes, FreeChunk& chunk) const {
+    for (int i = 0; i < kVoxelsPerChunk; ++i) {
+      const CubeWindows windows = cube_.grid().windowsOfCentre(boxes.box(i));
+      const bool is_free =
+          windows.size() > 0 &&
+          std::all_of(windows.begin(), windows.end(), [&](const CubeWindow& window) {
+            return cube_.isInFront(window, levelFor(window.nearest));
+          });
+      if (!is_free) continue;
+      const auto bit = static_cast<unsigned>(i);
+      chunk.free.voxels[bit >> 6U] |= std::uint64_t{1} << (bit & 63U);
+    }
+  }
+
+  static bool isAny(const FreeChunk& chunk) {
+    return std::any_of(chunk.free.voxels.begin(), chunk.free.voxels.end(),
+                       [](std::uint64_t word) { return word != 0; });
+  }
+
+  /// The word about the voxels of a chunk.
+  std::uint32_t countAt(const CubeWindows& windows) const {
+    float beams = 0;
+    for (const CubeWindow& window : windows)
+      beams =
+          std::max(beams, cube_.spacing(window.face, 0.5F * (window.nearest + window.farthest)));
+    if (beams <= resolution_) return kFullWord;
+    return facetWeight(0.5F * (beams - resolution_));
+  }
+
+  const DepthCube& cube_;
+  float resolution_;
+  std::array<float, 3> sensor_{};  ///< from the base [voxels]
+  int root_level_ = 0;
+};
+
+}  // namespace
+
+std::vector<FreeChunk> findFreeSpace(const ImageBeams& beams, const DepthCube& cube,
+                                     const Eigen::Vector3d& origin, const Options& options) {
+  return FreeSpaceSearch(beams, cube, origin, options).run(options.threads);
+}
+
+}  // namespace csom::detail

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "image/VoxelWords.h"
+
+#include <algorithm>
+
+namespace csom::detail {
+
+VoxelWords::Slot& VoxelWords::slotOf(std::uint64_t key) {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ull) >> 32U) & mask;
+  while (slots_[slot].cells != nullptr && slots_[slot].key != key) slot = (slot + 1) & mask;
+  return slots_[slot];
+}
+
+VoxelWords::Cells* VoxelWords::newCells(std::uint64_t key) {
+  constexpr std::size_t kBlock = 64;
+  const std::size_t in_block = chunks_.size() % kBlock;
+  if (in_block == 0) blocks_.push_back(std::make_unique<Cells[]>(kBlock));  // zeros
+  Cells* const cells = &blocks_.back()[in_block];
+  cells->key = key;
+  chunks_.push_back(cells);
+  return cells;
+}
+
+void VoxelWords::select(std::uint64_t key) {
+  if (2 * (chunks_.size() + 1) > slots_.size()) {
+    slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), {0, nullptr});
+    for (Cells* cells : chunks_) slotOf(cells->key) = {cells->key, cells};
+  }
+  Slot& slot = slotOf(key);
+  if (slot.cells == nullptr) slot = {key, newCells(key)};
+  recent_[recentSlot(key)] = slot;
+  last_key_ = key;
+  last_ = slot.cells;
+}
+
+void VoxelWords::countHit(Cell& cell, ClassId class_id, std::uint64_t shares) {
+  std::uint32_t tally = (cell & kHits) != 0 ? cell & ~kHits : kNone;
+  while (tally != kNone && tallies_[tally].class_id != class_id) tally = tallies_[tally].next;
+  if (tally != kNone) {
+    tallies_[tally].shares += shares;
+    return;
+  }
+  const std::uint32_t first = (cell & kHits) != 0 ? cell & ~kHits : kNone;
+  cell = kHits | static_cast<std::uint32_t>(tallies_.size());
+  tallies_.push_back({shares, first, class_id});
+}
+
+void VoxelWords::add(const VoxelWords& other, const Cells& cells) {
+  select(cells.key);
+  for (std::size_t i = 0; i < cells.cell.size(); ++i) {
+    const Cell theirs = cells.cell[i];
+    if ((theirs & kHits) == 0) {
+      raise(last_->cell[i], theirs);
+      continue;
+    }
+    for (std::uint32_t tally = theirs & ~kHits; tally != kNone; tally = other.tallies_[tally].next)
+      countHit(last_->cell[i], other.tallies_[tally].class_id, other.tallies_[tally].shares);
+  }
+}
+
+void VoxelWords::appendWord(std::uint16_t voxel, Cell cell,
+                            std::vector<CountIncrement>& out) const {
+  if ((cell & kHits) == 0) {
+    out.push_back({voxel, static_cast<ClassId>(0xffU - (cell & 0xffU)), cell >> 8U});
+    return;
+  }
+  const std::uint32_t first = cell & ~kHits;
+  std::uint64_t all = 0;
+  for (std::uint32_t tally = first; tally != kNone; tally = tallies_[tally].next)
+    all += tallies_[tally].shares;
+  const std::size_t begin = out.size();
+  for (std::uint32_t tally = first; tally != kNone; tally = tallies_[tally].next) {
+    const std::uint64_t count = (2 * kFullWord * tallies_[tally].shares + all) / (2 * all);
+    if (count > 0)
+      out.push_back({voxel, tallies_[tally].class_id, static_cast<std::uint32_t>(count)});
+  }
+  std::sort(
+      out.begin() + static_cast<std::ptrdiff_t>(begin), out.end(),
+      [](const CountIncrement& a, const CountIncrement& b) { return a.class_id < b.class_id; });
+}
+
+}  // namespace csom::detail
