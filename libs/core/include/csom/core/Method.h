@@ -21,8 +21,8 @@ enum class Method { SurfaceCsom, SeeCsom, SBki, SCsm };
 namespace detail {
 
 /// One scan and the options → counts for voxels; adds what it did to the report. Depends on nothing
-/// else: not on the map, on other scans, on threads. Equations: src/inference,
-/// src/surface and src/image.
+/// else: not on the map, on other scans, on threads. Equations: src/inference, src/surface and
+/// src/image.
 using InferenceFunction = ScanIncrements(const PreparedScan&, const Options&, ScanReport&);
 InferenceFunction inferSurfaceCsom;
 InferenceFunction inferSeeCsom;
@@ -39,8 +39,8 @@ struct MethodEntry {
 constexpr std::array kMethods{
     MethodEntry{Method::SurfaceCsom, "surface-csom", false, true, inferSurfaceCsom},
     MethodEntry{Method::SeeCsom, "see-csom", false, false, inferSeeCsom},
-    MethodEntry{Method::SBki, "s-bki", false, false,
-                inferSeeCsom},  // without both entropies, see Options
+    // Without both entropies, see Options.
+    MethodEntry{Method::SBki, "s-bki", false, false, inferSeeCsom},
     MethodEntry{Method::SCsm, "s-csm", true, false, inferSCsm},
 };
 
