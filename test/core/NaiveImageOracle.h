@@ -32,7 +32,7 @@ class NaiveImageOracle {
     r_ = static_cast<float>(options.resolution);
     const Grid grid(options.resolution);
     const VoxelIndex in = grid.voxelAt(scan.origin);
-    base_ = {in.x >> 3 << 3, in.y >> 3 << 3, in.z >> 3 << 3};
+    base_ = {(in.x >> 3) * 8, (in.y >> 3) * 8, (in.z >> 3) * 8};
     for (std::size_t i = 0; i < scan.points.size(); ++i)
       if (hasPixel(i)) beams_.push_back(i);
     for (const std::size_t i : beams_)
@@ -453,13 +453,6 @@ class NaiveImageOracle {
     w.v1 = last(w.max_v * (1 / (w.max_v > 0 ? w.near : w.far)));
     return w;
   }
-  int levelFor(float near) const {
-    const float pixels = 2 * (2 * 0.4F * r_) / near * half();
-    int level = 0;
-    while (2 << level <= side_ && static_cast<float>(3 << level) < pixels + 1) ++level;
-    return level;
-  }
-
   void findFree() {
     side_ = sideFor();
     for (Face& face : faces_) face.inverse.assign(static_cast<std::size_t>(side_ * side_), -1.0F);
@@ -474,8 +467,6 @@ class NaiveImageOracle {
   }
   void searchChunk(const Cell& low) {
     const Box all = boxOf(low, {low[0] + 7, low[1] + 7, low[2] + 7});
-    std::array<std::optional<int>, 6> level;  // of the voxels that are seen through a face
-    bool reaches_sensor = false;
     float beams = 0;
     for (int f = 0; f < 6; ++f) {
       const Vector a = turned(f, all.min);
@@ -483,44 +474,38 @@ class NaiveImageOracle {
       float near = std::min(a[0], b[0]);
       const float far = std::max(a[0], b[0]);
       for (const std::size_t axis : {1U, 2U}) near = std::max({near, 0.0F, a[axis], -b[axis]});
-      if (far < near) continue;
-      reaches_sensor = reaches_sensor || near == 0;
       const Face& face = faces_[static_cast<std::size_t>(f)];
-      if (face.drawings > 0)
-        beams = std::max(beams,
-                         static_cast<float>(face.spacings / face.drawings) * (0.5F * (near + far)));
-      if (near > 0) level[static_cast<std::size_t>(f)] = levelFor(near);
+      if (far < near || face.drawings == 0) continue;
+      beams = std::max(beams,
+                       static_cast<float>(face.spacings / face.drawings) * (0.5F * (near + far)));
     }
-    if (reaches_sensor) level = {};
     const std::uint32_t count = beams > r_ ? weightAt(0.5F * (beams - r_)) : 4096;
     for (std::int64_t i = 0; i < 512; ++i) {
       const Cell voxel{low[0] + i % 8, low[1] + i / 8 % 8, low[2] + i / 64};
       const std::vector<Window> own = windowsOf(boxOf(voxel, voxel));
-      if (own.empty() || std::any_of(own.begin(), own.end(), [&](const Window& w) {
-            return !isFree(w, level[static_cast<std::size_t>(w.face)].value_or(levelFor(w.near)));
-          }))
+      if (own.empty() ||
+          std::any_of(own.begin(), own.end(), [&](const Window& w) { return !isFree(w); }))
         continue;
       if (out_.count(inMap(voxel)) > 0) continue;
       out_[inMap(voxel)] = {{kFreeClass, count}};
       ++free_;
     }
   }
-  bool isFree(const Window& w, int level) {
+  bool isFree(const Window& w) {
     Face& face = faces_[static_cast<std::size_t>(w.face)];
-    const auto end = [&](int first, int last) {
-      return std::min(side_, (std::max(last >> level, (first >> level) + 1) + 1) << level);
-    };
-    const auto begin = [&](int first, int last) {
-      return std::max(0, std::min(first >> level, (last >> level) - 1) << level);
-    };
+    // Squares of a power of two, no longer than the longer side, from each corner inwards.
+    int edge = 1;
+    while (2 * edge <= std::max(w.u1 - w.u0, w.v1 - w.v0) + 1 && 4 * edge <= side_) edge *= 2;
     bool any = false;
-    for (int v = begin(w.v0, w.v1); v < end(w.v0, w.v1); ++v)
-      for (int u = begin(w.u0, w.u1); u < end(w.u0, w.u1); ++u) {
-        const float inverse = pixelOf(face.inverse, u, v);
-        if (inverse == -1) continue;
-        any = true;
-        if (inverse > 1 / w.far) return false;
-      }
+    for (const int v0 : {w.v0, std::max(0, w.v1 + 1 - edge)})
+      for (const int u0 : {w.u0, std::max(0, w.u1 + 1 - edge)})
+        for (int v = v0; v < std::min(v0 + edge, side_); ++v)
+          for (int u = u0; u < std::min(u0 + edge, side_); ++u) {
+            const float inverse = pixelOf(face.inverse, u, v);
+            if (inverse == -1) continue;
+            any = true;
+            if (inverse > 1 / w.far) return false;
+          }
     return any;
   }
 

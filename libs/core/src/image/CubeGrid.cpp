@@ -83,13 +83,9 @@ CubeWindows CubeGrid::windowsOfCentre(const SpaceBox& box) const {
   return windows;
 }
 
-int CubeGrid::levelFor(float edge, float nearest) const {
-  // (u + e/2)/(d − e/2) − (u − e/2)/(d + e/2) ≤ 2e/(d − e/2) where |u| ≤ d.
-  const float pixels = 2 * edge / nearest * halfSide();
-  int level = 0;
-  while (level < levels_ - 1 && static_cast<float>((kWindowPixels - 1) << level) < pixels + 1)
-    ++level;
-  return level;
+int CubeGrid::mostPixels(float edge, float nearest) const {
+  // (u + e/2)/(d − e/2) − (u − e/2)/(d + e/2) ≤ 2e/(d − e/2) where |u| ≤ d; and both borders.
+  return static_cast<int>(std::min(2 * edge / nearest * halfSide(), static_cast<float>(side_))) + 3;
 }
 
 int CubeGrid::levelOf(const CubeWindow& window) const {

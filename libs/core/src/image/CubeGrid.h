@@ -51,10 +51,6 @@ class CubeWindows {
 class CubeGrid {
  public:
   static constexpr int kFaces = 6;
-  /// Pixels along an axis that are looked at for a voxel, at most. Beside a single one, those on
-  /// both sides of it.
-  static constexpr int kWindowPixels = 4;
-
   /// For beams so far apart, as sine of an angle: pixels no wider, of 16 to 512 along an axis.
   static CubeGrid forSpacing(double sine);
 
@@ -86,10 +82,9 @@ class CubeGrid {
   /// much of the box as lies behind each of them; none if it reaches the plane of the sensor.
   CubeWindows windowsOfCentre(const SpaceBox& box) const;
 
-  /// The level of the pyramid at which boxes of an edge no nearer than a depth lie behind at most
-  /// kWindowPixels along each axis.
-  int levelFor(float edge, float nearest) const;
-  /// That at which a window has a few.
+  /// What boxes of an edge, no nearer than a depth, lie behind along an axis: no more pixels.
+  int mostPixels(float edge, float nearest) const;
+  /// The level of the pyramid at which a window has a few pixels along each axis.
   int levelOf(const CubeWindow& window) const;
 
  private:

@@ -50,30 +50,27 @@ bool DepthCube::holdsForAll(const DepthPyramid& pyramid, const CubeWindow& windo
                             const Accept& accept) const {
   const int side = grid_.side() >> level;
   const float* const pixels = pyramid.level(level);
-  // One pixel more to both sides of a single one, as for the voxels of a chunk at once.
-  const auto begin = [&](int first, int last) {
-    return std::max(std::min(first >> level, (last >> level) - 1), 0);
-  };
-  const auto end = [&](int first, int last) {
-    return std::min(std::max(last >> level, (first >> level) + 1) + 1, side);
-  };
-  for (int v = begin(window.first_v, window.last_v); v < end(window.first_v, window.last_v); ++v)
-    for (int u = begin(window.first_u, window.last_u); u < end(window.first_u, window.last_u); ++u)
+  for (int v = window.first_v >> level; v <= window.last_v >> level; ++v)
+    for (int u = window.first_u >> level; u <= window.last_u >> level; ++u)
       if (!accept(pixels[v * side + u])) return false;
   return true;
 }
 
-bool DepthCube::isInFront(const CubeWindow& window, int level) const {
-  const DepthPyramid& nearest = faceAt(window.face).nearest;
+bool DepthCube::isInFront(const CubeWindow& window) const {
+  const SlidingMaxima& nearest = faceAt(window.face).nearest;
   if (nearest.empty()) return false;
-  const float limit = 1 / window.farthest;
-  bool any = false;
-  return holdsForAll(nearest, window, level,
-                     [&](float inverse) {
-                       any = any || inverse > 0;
-                       return inverse <= limit;
-                     }) &&
-         any;
+  const int longer = std::max(window.last_u - window.first_u, window.last_v - window.first_v) + 1;
+  int level = 0;
+  while (2 << level <= longer) ++level;
+  level = std::min(level, grid_.levels() - 2);
+  const int back = (1 << level) - 1;
+  const int side = grid_.side();
+  const float* const squares = nearest.all() + static_cast<std::ptrdiff_t>(level) * side * side;
+  float inverse = 0;
+  for (const int v : {window.first_v, std::max(window.last_v - back, 0)})
+    for (const int u : {window.first_u, std::max(window.last_u - back, 0)})
+      inverse = std::max(inverse, squares[v * side + u]);
+  return inverse > 0 && inverse <= 1 / window.farthest;
 }
 
 bool DepthCube::isAllInFront(const CubeWindow& window, int level) const {
@@ -108,27 +105,27 @@ CSOM_INLINE Lanes load(const ChunkBoxes::Bounds& bounds) {
   return lanes;
 }
 
-/// A level of nearest_of_four.
-struct PixelLevel {
-  const float* pixels;
-  int level;
-  std::int32_t half_side;  ///< of the lowest level
+/// SlidingMaxima of a face.
+struct SquareImage {
+  const float* squares;
+  std::int32_t half_side;
+  std::int32_t last_level;
 };
 
-/// The first pixels of the two squares that cover what eight voxels lie behind along an axis.
-struct alignas(kLaneAlignment) Squares {
-  IntLanes first, second;
+/// What eight voxels lie behind along an axis.
+struct alignas(kLaneAlignment) PixelRange {
+  IntLanes first, last;
 };
 
-CSOM_INLINE IntLanes pixelsOf(const IntLanes& from_centre, const PixelLevel& image) {
+CSOM_INLINE IntLanes pixelsOf(const IntLanes& from_centre, const SquareImage& image) {
   const IntLanes last = IntLanes{} + std::max(2 * image.half_side - 1, 0);
   const IntLanes pixel = from_centre + image.half_side;
   const IntLanes positive = pixel < 0 ? IntLanes{} : pixel;
-  return (positive > last ? last : positive) >> image.level;
+  return positive > last ? last : positive;
 }
 /// CubeGrid::window() of eight voxels: bounds along u or v, and inverse depths.
-CSOM_INLINE Squares squaresOf(const Lanes& min, const Lanes& max, const Lanes& near,
-                              const Lanes& far, const PixelLevel& image) {
+CSOM_INLINE PixelRange rangeOf(const Lanes& min, const Lanes& max, const Lanes& near,
+                               const Lanes& far, const SquareImage& image) {
   const auto half_side = static_cast<float>(image.half_side);
   const Lanes lower = min * (min < 0 ? near : far) * half_side;
   const Lanes upper = max * (max > 0 ? near : far) * half_side;
@@ -136,21 +133,21 @@ CSOM_INLINE Squares squaresOf(const Lanes& min, const Lanes& max, const Lanes& n
   const IntLanes whole_upper = __builtin_convertvector(upper, IntLanes);
   const IntLanes ceiling = whole_lower - (__builtin_convertvector(whole_lower, Lanes) < lower);
   const IntLanes floor = whole_upper + (__builtin_convertvector(whole_upper, Lanes) > upper);
-  const IntLanes last = pixelsOf(floor, image);
-  return {pixelsOf(ceiling - 1, image), last > 0 ? last - 1 : last};
+  return {pixelsOf(ceiling - 1, image), pixelsOf(floor, image)};
 }
 
 /// Looks through one face at the voxels of a chunk. What a voxel lies behind along u depends on
 /// where it lies along u and the depth alone, and so along v: both are found for eight at once.
 struct alignas(kLaneAlignment) ChunkView {
-  std::array<Lanes, kChunkSide> far;  ///< inverse depth: rows along x
-  std::array<Squares, kChunkSide> u;  ///< rows along x; by y, or the depth if that is z
-  std::array<Squares, kChunkSide> v;  ///< if the depth is x: by z. Else lanes are z or y, by depth
+  std::array<Lanes, kChunkSide> far;     ///< inverse depth: rows along x
+  std::array<PixelRange, kChunkSide> u;  ///< rows along x; by y, or the depth if that is z
+  std::array<PixelRange, kChunkSide>
+      v;  ///< if the depth is x: by z. Else lanes are z or y, by depth
   std::array<IntLanes, kChunkSide * kChunkSide> seen;  ///< rows along x, by y and z
 };
 
 CSOM_EVERY_PROCESSOR
-void lookAt(const ChunkBoxes& boxes, int face, bool one_face, const PixelLevel& image,
+void lookAt(const ChunkBoxes& boxes, int face, bool one_face, const SquareImage& image,
             ChunkView& view) {
   const FaceAxes axes(face);
   const ChunkBoxes::Bounds& first = axes.positive ? boxes.min[axes.depth] : boxes.max[axes.depth];
@@ -166,8 +163,8 @@ void lookAt(const ChunkBoxes& boxes, int face, bool one_face, const PixelLevel& 
     }
     for (std::size_t i = 0; i < kChunkSide; ++i) {
       view.far[i] = far;
-      view.u[i] = squaresOf(Lanes{} + boxes.min[1][i], Lanes{} + boxes.max[1][i], near, far, image);
-      view.v[i] = squaresOf(Lanes{} + boxes.min[2][i], Lanes{} + boxes.max[2][i], near, far, image);
+      view.u[i] = rangeOf(Lanes{} + boxes.min[1][i], Lanes{} + boxes.max[1][i], near, far, image);
+      view.v[i] = rangeOf(Lanes{} + boxes.min[2][i], Lanes{} + boxes.max[2][i], near, far, image);
     }
   } else {
     const std::size_t other = axes.depth == 1 ? 2 : 1;
@@ -175,8 +172,8 @@ void lookAt(const ChunkBoxes& boxes, int face, bool one_face, const PixelLevel& 
       const Lanes near = Lanes{} + 1 / depthOf(first[i]);
       const Lanes far = Lanes{} + 1 / depthOf(last[i]);
       view.far[i] = far;
-      view.u[i] = squaresOf(load(boxes.min[0]), load(boxes.max[0]), near, far, image);
-      view.v[i] = squaresOf(load(boxes.min[other]), load(boxes.max[other]), near, far, image);
+      view.u[i] = rangeOf(load(boxes.min[0]), load(boxes.max[0]), near, far, image);
+      view.v[i] = rangeOf(load(boxes.min[other]), load(boxes.max[other]), near, far, image);
     }
   }
   if (one_face) return;
@@ -197,21 +194,37 @@ void lookAt(const ChunkBoxes& boxes, int face, bool one_face, const PixelLevel& 
 /// pass.
 CSOM_EVERY_PROCESSOR
 std::uint32_t rowInFront(const ChunkView& view, std::size_t y, std::size_t z,
-                         std::size_t depth_axis, bool one_face, const PixelLevel& image) {
+                         std::size_t depth_axis, bool one_face, const SquareImage& image) {
   const std::size_t depth = depth_axis == 2 ? z : y;
-  const Squares& u = view.u[depth];
-  Squares v = view.v[depth_axis == 0 ? z : depth];
+  const PixelRange& u = view.u[depth];
+  PixelRange v = view.v[depth_axis == 0 ? z : depth];
   if (depth_axis != 0) {
     const std::size_t lane = depth_axis == 1 ? z : y;
-    v = {IntLanes{} + v.first[lane], IntLanes{} + v.second[lane]};
+    v = {IntLanes{} + v.first[lane], IntLanes{} + v.last[lane]};
   }
-  const std::int32_t side = 2 * image.half_side >> image.level;
-  const std::array<IntLanes, 4> squares{v.first * side + u.first, v.first * side + u.second,
-                                        v.second * side + u.first, v.second * side + u.second};
+  // The exponent of a number is the whole part of its logarithm.
+  const IntLanes size_u = u.last - u.first;
+  const IntLanes size_v = v.last - v.first;
+  const Lanes longer = __builtin_convertvector((size_u > size_v ? size_u : size_v) + 1, Lanes);
+  IntLanes level;
+  std::memcpy(&level, &longer, sizeof level);
+  level = (level >> 23) - 127;
+  level = level < image.last_level ? level : IntLanes{} + image.last_level;
+  level = level > 0 ? level : IntLanes{};  // also where voxels are not seen through the face
+  const IntLanes back = ((IntLanes{} + 1) << level) - 1;
+  const IntLanes before_u = u.last - back;
+  const IntLanes before_v = v.last - back;
+  const IntLanes second_u = before_u > 0 ? before_u : IntLanes{};
+  const IntLanes second_v = before_v > 0 ? before_v : IntLanes{};
+  const std::int32_t side = 2 * image.half_side;
+  const IntLanes upper = (level * side + v.first) * side;
+  const IntLanes lower = (level * side + second_v) * side;
+  const std::array<IntLanes, 4> squares{upper + u.first, upper + second_u, lower + u.first,
+                                        lower + second_u};
   Lanes inverse{};
   for (const IntLanes& square : squares) {
     Lanes here;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) here[lane] = image.pixels[square[lane]];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) here[lane] = image.squares[square[lane]];
     inverse = inverse > here ? inverse : here;
   }
   IntLanes passes = (inverse <= view.far[depth]) & (inverse > 0);
@@ -224,14 +237,14 @@ std::uint32_t rowInFront(const ChunkView& view, std::size_t y, std::size_t z,
 
 }  // namespace
 
-void DepthCube::keepInFront(const ChunkBoxes& boxes, int face, bool one_face, int level,
+void DepthCube::keepInFront(const ChunkBoxes& boxes, int face, bool one_face,
                             std::array<std::uint64_t, kVoxelsPerChunk / 64>& voxels) const {
-  const DepthPyramid& pyramid = faceAt(face).nearest_of_four;
-  // Nothing was drawn: pixels of zeros.
+  const SlidingMaxima& nearest = faceAt(face).nearest;
+  // Nothing was drawn: squares of zeros.
   static constexpr float kNothing = 0;
-  const PixelLevel image = pyramid.empty()
-                               ? PixelLevel{&kNothing, 0, 0}
-                               : PixelLevel{pyramid.level(level), level, grid_.side() / 2};
+  const SquareImage image = nearest.empty()
+                                ? SquareImage{&kNothing, 0, 0}
+                                : SquareImage{nearest.all(), grid_.side() / 2, grid_.levels() - 2};
   ChunkView view;
   lookAt(boxes, face, one_face, image, view);
   const std::size_t depth_axis = FaceAxes(face).depth;

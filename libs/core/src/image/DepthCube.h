@@ -37,12 +37,14 @@ class CSOM_OF_ONE_BINARY DepthCube {
 
   const CubeGrid& grid() const { return grid_; }
 
+  // For a voxel, a window is looked at through squares of pixels: of the largest edge 2^n that is
+  // no longer than its longer side, at each of its corners, inside it along that side.
+
   /// Whether the box lies in front of all that was drawn in its window, and anything was.
-  bool isInFront(const CubeWindow& window, int level) const;
+  bool isInFront(const CubeWindow& window) const;
   /// Of the voxels of a chunk, a bit each, takes out those for which that does not hold although
-  /// their centre is seen through the face, or all of them through this `one_face`. They are so far
-  /// away that none has more than kWindowPixels of the level along an axis.
-  void keepInFront(const ChunkBoxes& boxes, int face, bool one_face, int level,
+  /// their centre is seen through the face, or all of them through this `one_face`.
+  void keepInFront(const ChunkBoxes& boxes, int face, bool one_face,
                    std::array<std::uint64_t, kVoxelsPerChunk / 64>& voxels) const;
   /// Whether the box, and every box in it, lies in front of what was drawn: that was everywhere.
   bool isAllInFront(const CubeWindow& window, int level) const;

@@ -38,12 +38,39 @@ class DepthPyramid {
   std::size_t side_ = 0;
 };
 
+/// Largest inverse depths of squares of 2^level pixels an edge, for each pixel at which one begins;
+/// as much of it as lies in the image. Four of them, overlapping, cover any larger window.
+class SlidingMaxima {
+ public:
+  void allocate(int side) {
+    side_ = static_cast<std::size_t>(side);
+    std::size_t levels = 0;
+    for (std::size_t edge = side_; edge > 1; edge /= 2) ++levels;
+    squares_.reset(static_cast<float*>(std::calloc(levels * side_ * side_, sizeof(float))));
+    if (squares_ == nullptr) throw std::bad_alloc();
+  }
+  bool empty() const { return squares_ == nullptr; }
+
+  /// Row after row; levels lie one after the other.
+  float* level(int level) {
+    return squares_.get() + static_cast<std::size_t>(level) * side_ * side_;
+  }
+  const float* all() const { return squares_.get(); }
+
+ private:
+  struct Free {
+    void operator()(float* squares) const { std::free(squares); }
+  };
+
+  std::unique_ptr<float[], Free> squares_;
+  std::size_t side_ = 0;
+};
+
 /// What is known about the pixels of one face. Empty if nothing was drawn.
 struct DepthFace {
-  DepthPyramid nearest;          ///< the largest of what was drawn
-  DepthPyramid nearest_of_four;  ///< of a pixel and those after it along u, v and both
-  DepthPyramid complete;         ///< as `nearest`; 0 if not all was drawn
-  DepthPyramid farthest;         ///< the smallest of what was drawn
+  SlidingMaxima nearest;  ///< the largest of what was drawn
+  DepthPyramid complete;  ///< the same; 0 if not all was drawn
+  DepthPyramid farthest;  ///< the smallest of what was drawn
   /// Mean distance of adjacent beams at a depth of 1, along the wider side of what was drawn.
   float spacing = 0;
 };

@@ -235,11 +235,8 @@ void FacePainter::buildPyramids() {
       std::copy(image_ + v * side_ + drawn_.first_u, image_ + v * side_ + drawn_.end_u,
                 pyramid->level(0) + v * side_ + drawn_.first_u);
   }
-  out_.nearest_of_four.allocate(grid_.side());
-  gatherFour(0);
   for (int level = 1; level < grid_.levels(); ++level) {
-    shrink(out_.nearest, level, [](float a, float b) { return a > b ? a : b; });
-    gatherFour(level);
+    slide(level);
     shrink(out_.complete, level, [](float a, float b) {
       const float larger = a > b ? a : b;
       return a == 0 || b == 0 ? 0 : larger;
@@ -269,24 +266,24 @@ void FacePainter::shrink(DepthPyramid& pyramid, int level, const Choose& choose)
   }
 }
 
-/// Makes the pixels of a level of nearest_of_four, where anything was drawn.
-void FacePainter::gatherFour(int level) {
-  const std::size_t side = side_ >> level;
-  const float* const from = out_.nearest.level(level);
-  float* const to = out_.nearest_of_four.level(level);
-  const auto first = [&](std::size_t pixel) {
-    return (pixel >> level) - (pixel >> level > 0 ? 1 : 0);
-  };
-  const std::size_t end_u = ((drawn_.end_u - 1) >> level) + 1;
-  const std::size_t end_v = ((drawn_.end_v - 1) >> level) + 1;
-  for (std::size_t v = first(drawn_.first_v); v < end_v; ++v) {
-    const float* const row = from + v * side;
-    const float* const next_row = v + 1 < side ? row + side : row;
-    for (std::size_t u = first(drawn_.first_u); u < end_u; ++u) {
-      const std::size_t next = u + 1 < side ? u + 1 : u;
-      to[v * side + u] =
-          std::max(std::max(row[u], row[next]), std::max(next_row[u], next_row[next]));
-    }
+/// Makes each square of a level of four of the level below it, where anything was drawn.
+void FacePainter::slide(int level) {
+  if (level >= grid_.levels() - 1) return;
+  const std::size_t half = std::size_t{1} << (level - 1);
+  const float* const from = out_.nearest.level(level - 1);
+  float* const to = out_.nearest.level(level);
+  const auto first = [&](std::size_t pixel) { return pixel - std::min(pixel, 2 * half - 1); };
+  const std::size_t first_u = first(drawn_.first_u);
+  // Beyond the image, and beyond what was drawn, is nothing: the square itself instead.
+  const std::size_t both_u = std::min(drawn_.end_u, side_ - std::min(side_, half));
+  for (std::size_t v = first(drawn_.first_v); v < drawn_.end_v; ++v) {
+    const float* const upper = from + v * side_;
+    const float* const lower = v + half < drawn_.end_v ? upper + half * side_ : upper;
+    float* const row = to + v * side_;
+    std::size_t u = first_u;
+    for (; u < both_u; ++u)
+      row[u] = std::max(std::max(upper[u], upper[u + half]), std::max(lower[u], lower[u + half]));
+    for (; u < drawn_.end_u; ++u) row[u] = std::max(upper[u], lower[u]);
   }
 }
 

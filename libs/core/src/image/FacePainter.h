@@ -64,7 +64,7 @@ class FacePainter {
   void buildPyramids();
   template <class Choose>
   void shrink(DepthPyramid& pyramid, int level, const Choose& choose) const;
-  void gatherFour(int level);
+  void slide(int level);
 
   const CubeGrid& grid_;
   int face_;

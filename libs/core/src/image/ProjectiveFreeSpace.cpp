@@ -90,15 +90,10 @@ class FreeSpaceSearch {
     }
     return boxes;
   }
-  int levelFor(float nearest) const {
-    return cube_.grid().levelFor(2 * kHalfEdge * resolution_, nearest);
-  }
-
   void search(const Node& node, std::vector<FreeChunk>& out) const {
     const CubeWindows windows = cube_.grid().windowsOf(boxOf(node));
-    if (std::all_of(windows.begin(), windows.end(), [&](const CubeWindow& window) {
-          return cube_.isAllBehind(surrounded(window), levelOf(window));
-        }))
+    if (std::all_of(windows.begin(), windows.end(),
+                    [&](const CubeWindow& window) { return isAllBehind(window); }))
       return;
     if (node.level == 0) {
       searchChunk(node, windows, out);
@@ -110,23 +105,26 @@ class FreeSpaceSearch {
           search({node.level - 1, 2 * node.x + x, 2 * node.y + y, 2 * node.z + z}, out);
   }
 
-  /// Coarse enough to look at all of a window, and no finer than any of its voxels is looked at.
-  int levelOf(const CubeWindow& window) const {
-    return window.nearest > 0 ? std::max(cube_.grid().levelOf(window), levelFor(window.nearest))
-                              : cube_.grid().levels() - 1;
-  }
-
-  /// With the pixels that may be looked at beside those of a voxel.
+  /// With the pixels beside it that may be looked at for a voxel.
   CubeWindow surrounded(const CubeWindow& window) const {
-    if (!(window.nearest > 0)) return window;
-    const int pixels = 1 << levelFor(window.nearest);
     const int last = cube_.grid().side() - 1;
+    const int pixels = window.nearest > 0
+                           ? cube_.grid().mostPixels(2 * kHalfEdge * resolution_, window.nearest)
+                           : last;
     CubeWindow larger = window;
     larger.first_u = std::max(window.first_u - pixels, 0);
     larger.last_u = std::min(window.last_u + pixels, last);
     larger.first_v = std::max(window.first_v - pixels, 0);
     larger.last_v = std::min(window.last_v + pixels, last);
     return larger;
+  }
+  bool isAllBehind(const CubeWindow& window) const {
+    const CubeWindow larger = surrounded(window);
+    return cube_.isAllBehind(larger, cube_.grid().levelOf(larger));
+  }
+  bool isAllInFront(const CubeWindow& window) const {
+    const CubeWindow larger = surrounded(window);
+    return cube_.isAllInFront(larger, cube_.grid().levelOf(larger));
   }
 
   void searchChunk(const Node& node, const CubeWindows& windows,
@@ -140,9 +138,8 @@ class FreeSpaceSearch {
       chunk.free.voxels.fill(~std::uint64_t{0});
       const bool one_face = windows.size() == 1;
       for (const CubeWindow& window : windows)
-        if (!one_face || !cube_.isAllInFront(surrounded(window), levelOf(window)))
-          cube_.keepInFront(boxesOf(node), window.face, one_face, levelFor(window.nearest),
-                            chunk.free.voxels);
+        if (!one_face || !isAllInFront(window))
+          cube_.keepInFront(boxesOf(node), window.face, one_face, chunk.free.voxels);
     }
     if (isAny(chunk)) out.push_back(chunk);
   }
@@ -151,11 +148,10 @@ class FreeSpaceSearch {
   void searchAroundSensor(const ChunkBoxes& boxes, FreeChunk& chunk) const {
     for (int i = 0; i < kVoxelsPerChunk; ++i) {
       const CubeWindows windows = cube_.grid().windowsOfCentre(boxes.box(i));
-      const bool is_free =
-          windows.size() > 0 &&
-          std::all_of(windows.begin(), windows.end(), [&](const CubeWindow& window) {
-            return cube_.isInFront(window, levelFor(window.nearest));
-          });
+      const bool is_free = windows.size() > 0 && std::all_of(windows.begin(), windows.end(),
+                                                             [&](const CubeWindow& window) {
+                                                               return cube_.isInFront(window);
+                                                             });
       if (!is_free) continue;
       const auto bit = static_cast<unsigned>(i);
       chunk.free.voxels[bit >> 6U] |= std::uint64_t{1} << (bit & 63U);

@@ -20,8 +20,7 @@ struct FreeChunk {
 };
 
 /// A voxel is free if the cube of 0.8 of its edge around its centre lies in front of everything
-/// that was drawn in its directions, looked up in the pyramid at the level at which a voxel of its
-/// chunk has at most two pixels.
+/// that was drawn in its directions.
 ///
 /// The word about it is a full one where adjacent beams are nearer than the voxel's edge at its
 /// distance, so that one of them went through it; else 0.4/(1 + (g/1 m)²), where g is by how much
