@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/MapProperties.h"
 #include "core/NaiveImageOracle.h"
 #include "core/RandomImages.h"
 
@@ -68,12 +69,6 @@ void forRandomCases(int scans_per_case, const Check& check) {
   }
 }
 
-SemanticMap mapOf(const Options& options, const std::vector<Scan>& scans) {
-  SemanticMap map(options);
-  for (const Scan& scan : scans) map.insert(scan);
-  return map;
-}
-
 TEST(ImageProperties, OrderOfScansDoesNotMatter) {
   forRandomCases(4, [](RandomImage& random, const Options& options, std::vector<Scan> scans) {
     const std::string expected = bytesOf(mapOf(options, scans));
@@ -127,62 +122,24 @@ TEST(ImageProperties, NumberOfThreadsDoesNotMatter) {
 }
 
 TEST(ImageProperties, ShardsMergedInAnyOrderAreTheWhole) {
-  forRandomCases(6, [](RandomImage& random, const Options& options, std::vector<Scan> scans) {
-    const std::string expected = bytesOf(mapOf(options, scans));
-    std::vector<SemanticMap> shards(3, SemanticMap(options));
-    for (const Scan& scan : scans)
-      shards[static_cast<std::size_t>(random.integer(0, 2))].insert(scan);
-    std::shuffle(shards.begin(), shards.end(), random.engine());
-    SemanticMap sum = shards[0];
-    sum.merge(shards[1]);
-    sum.merge(shards[2]);
-    ASSERT_EQ(bytesOf(sum), expected);
-  });
+  forRandomCases(6, expectShardsToBeTheWhole);
 }
 
 TEST(ImageProperties, ShiftByWholeChunksMovesTheMap) {
-  // Numbers that binary fractions hold exactly: the shifted scan is the same scan, bit for bit.
-  forRandomCases(1, [](RandomImage& random, Options options, std::vector<Scan> scans) {
-    options.resolution = 0.25;
-    Scan scan = scans[0];
-    scan.origin = (Eigen::Vector3d(random.real(-4, 4), random.real(-4, 4), random.real(-4, 4)) * 64)
-                      .array()
-                      .round() /
-                  64;
-    for (Eigen::Vector3f& p : scan.points) p = (p * 1024.0F).array().round() / 1024.0F;
-    const VoxelIndex shift{8 * random.integer(-50, 50), 8 * random.integer(-50, 50),
-                           8 * random.integer(-50, 50)};
-    Scan moved = scan;
-    moved.origin += Eigen::Vector3d(shift.x, shift.y, shift.z) * options.resolution;
-    const SemanticMap a = mapOf(options, {scan});
-    const SemanticMap b = mapOf(options, {moved});
-    ASSERT_FALSE(a.empty());
-    ASSERT_EQ(a.knownVoxelCount(), b.knownVoxelCount());
-    a.forEachVoxel([&](const VoxelIndex& v, const DirichletVoxel& voxel) {
-      const DirichletVoxel image = b.voxel({v.x + shift.x, v.y + shift.y, v.z + shift.z});
-      for (int k = 0; k < options.number_of_classes; ++k)
-        ASSERT_EQ(voxel.count(static_cast<ClassId>(k)), image.count(static_cast<ClassId>(k)));
-    });
-  });
+  forRandomCases(1,
+                 [](RandomImage& random, const Options& options, const std::vector<Scan>& scans) {
+                   ASSERT_FALSE(mapOf(options, scans).empty());
+                   expectShiftToMoveTheMap(random, options, scans[0], kChunkSide);
+                 });
 }
 
 TEST(ImageProperties, QuarterTurnTurnsTheMap) {
-  // x' = −y, y' = x: voxel (i, j, k) becomes (−j−1, i, k), and to the last bit.
-  forRandomCases(1, [](RandomImage&, const Options& options, std::vector<Scan> scans) {
-    const Scan& scan = scans[0];
-    Scan turned = scan;
-    turned.origin = {-scan.origin.y(), scan.origin.x(), scan.origin.z()};
-    for (std::size_t i = 0; i < scan.points.size(); ++i)
-      turned.points[i] = {-scan.points[i].y(), scan.points[i].x(), scan.points[i].z()};
-    const SemanticMap a = mapOf(options, {scan});
-    const SemanticMap b = mapOf(options, {turned});
-    ASSERT_FALSE(a.empty());
-    ASSERT_EQ(a.knownVoxelCount(), b.knownVoxelCount());
-    a.forEachVoxel([&](const VoxelIndex& v, const DirichletVoxel& voxel) {
-      const DirichletVoxel image = b.voxel({-v.y - 1, v.x, v.z});
-      for (int k = 0; k < options.number_of_classes; ++k)
-        ASSERT_EQ(voxel.count(static_cast<ClassId>(k)), image.count(static_cast<ClassId>(k)))
-            << v.x << ' ' << v.y << ' ' << v.z << " class " << k;
+  // To the last bit.
+  forRandomCases(1, [](RandomImage&, const Options& options, const std::vector<Scan>& scans) {
+    const SemanticMap map = mapOf(options, {scans[0]});
+    ASSERT_FALSE(map.empty());
+    expectMoved(map, mapOf(options, {quarterTurned(scans[0])}), [](const VoxelIndex& v) {
+      return VoxelIndex{-v.y - 1, v.x, v.z};
     });
   });
 }

@@ -384,7 +384,7 @@ class NaiveImageOracle {
           }
           if (!inside) continue;
           float value = nearest;
-          if (surface && !(u0 == u1 && v0 == v1))
+          if (surface)
             value = onPlane({u[t[0]], u[t[1]], u[t[2]]}, {v[t[0]], v[t[1]], v[t[2]]},
                             {inverse[t[0]], inverse[t[1]], inverse[t[2]]}, at_u, at_v);
           pixelOf(out.inverse, x, y) = std::max(pixelOf(out.inverse, x, y), value);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/MapProperties.h"
 #include "core/RandomScans.h"
 
 namespace csom::test {
@@ -28,12 +29,6 @@ class Properties : public testing::TestWithParam<Method> {
   /// The filter may reject every block of a thin scan; most cases must hold something all the same.
   void countFilled(bool filled) { filled_cases_ += filled ? 1 : 0; }
   void expectMostlyFilled() const { EXPECT_GT(filled_cases_, kRandomCases * 9 / 10); }
-
-  static SemanticMap mapOf(const Options& options, const std::vector<Scan>& scans) {
-    SemanticMap map(options);
-    for (const Scan& scan : scans) map.insert(scan);
-    return map;
-  }
 
  private:
   int filled_cases_ = 0;
@@ -86,66 +81,28 @@ TEST_P(Properties, NumberOfThreadsDoesNotMatterForAWideScan) {
 }
 
 TEST_P(Properties, ShardsMergedInAnyOrderAreTheWhole) {
-  forRandomCases(6, 40,
-                 [](RandomCase& random, const Options& options, const std::vector<Scan>& scans) {
-                   const std::string expected = bytesOf(mapOf(options, scans));
-                   std::vector<SemanticMap> shards(3, SemanticMap(options));
-                   for (const Scan& scan : scans)
-                     shards[static_cast<std::size_t>(random.integer(0, 2))].insert(scan);
-                   std::shuffle(shards.begin(), shards.end(), random.engine());
-                   SemanticMap left = shards[0];
-                   left.merge(shards[1]);
-                   left.merge(shards[2]);
-                   ASSERT_EQ(bytesOf(left), expected);
-                   SemanticMap right = shards[1];
-                   right.merge(shards[2]);
-                   SemanticMap all = shards[0];
-                   all.merge(right);
-                   ASSERT_EQ(bytesOf(all), expected);
-                 });
+  forRandomCases(6, 40, expectShardsToBeTheWhole);
 }
 
 TEST_P(Properties, ShiftByWholeBlocksMovesTheMap) {
-  // Numbers that binary fractions hold exactly: the shifted scan is the same scan, bit for bit.
-  forRandomCases(1, 80, [this](RandomCase& random, Options options, std::vector<Scan> scans) {
-    options.resolution = 0.25;
-    options.scan.ds_resolution = random.oneOf<double>({0, 0.125, 0.25});
-    Scan scan = scans[0];
-    scan.origin = (Eigen::Vector3d(random.real(-4, 4), random.real(-4, 4), random.real(-4, 4)) * 64)
-                      .array()
-                      .round() /
-                  64;
-    for (Eigen::Vector3f& p : scan.points) p = (p * 1024.0F).array().round() / 1024.0F;
-    const int block = options.method == Method::SCsm ? 1 : 1 << (options.block_depth - 1);
-    const VoxelIndex shift{block * random.integer(-50, 50), block * random.integer(-50, 50),
-                           block * random.integer(-50, 50)};
-    Scan moved = scan;
-    moved.origin += Eigen::Vector3d(shift.x, shift.y, shift.z) * options.resolution;
-    const SemanticMap a = mapOf(options, {scan});
-    const SemanticMap b = mapOf(options, {moved});
-    countFilled(!a.empty());
-    ASSERT_EQ(a.knownVoxelCount(), b.knownVoxelCount());
-    a.forEachVoxel([&](const VoxelIndex& v, const DirichletVoxel& voxel) {
-      const DirichletVoxel image = b.voxel({v.x + shift.x, v.y + shift.y, v.z + shift.z});
-      for (int k = 0; k < options.number_of_classes; ++k)
-        ASSERT_EQ(voxel.count(static_cast<ClassId>(k)), image.count(static_cast<ClassId>(k)));
-    });
-  });
+  forRandomCases(
+      1, 80, [this](RandomCase& random, Options options, const std::vector<Scan>& scans) {
+        options.scan.ds_resolution = random.oneOf<double>({0, 0.125, 0.25});
+        countFilled(!mapOf(options, scans).empty());
+        const int block = options.method == Method::SCsm ? 1 : 1 << (options.block_depth - 1);
+        expectShiftToMoveTheMap(random, options, scans[0], block);
+      });
   expectMostlyFilled();
 }
 
 TEST_P(Properties, QuarterTurnTurnsTheMap) {
-  // x' = −y, y' = x: voxel (i, j, k) becomes (−j−1, i, k). Sums run in another order: one quantum.
+  // Sums run in another order: one quantum.
   forRandomCases(1, 80, [this](RandomCase& random, Options options, std::vector<Scan> scans) {
     options.scan.ds_resolution = 0;
     Scan scan = scans[0];
     scan.origin = {random.real(-4, 4), random.real(-4, 4), random.real(-4, 4)};
-    Scan turned = scan;
-    turned.origin = {-scan.origin.y(), scan.origin.x(), scan.origin.z()};
-    for (std::size_t i = 0; i < scan.points.size(); ++i)
-      turned.points[i] = {-scan.points[i].y(), scan.points[i].x(), scan.points[i].z()};
     const SemanticMap a = mapOf(options, {scan});
-    const SemanticMap b = mapOf(options, {turned});
+    const SemanticMap b = mapOf(options, {quarterTurned(scan)});
     countFilled(!a.empty());
     // Both ways, so that neither map may hold a voxel that the other lacks.
     b.forEachVoxel([&](const VoxelIndex& v, const DirichletVoxel& voxel) {
@@ -161,6 +118,17 @@ TEST_P(Properties, QuarterTurnTurnsTheMap) {
                     1.01 * kCountQuantum + 1e-5 * mass);
       }
     });
+  });
+  expectMostlyFilled();
+}
+
+TEST_P(Properties, ProjectiveFreeSpaceWithoutAnImageIsThatOfRays) {
+  forRandomCases(1, 80, [this](RandomCase&, Options options, const std::vector<Scan>& scans) {
+    options.free_space.mode = FreeSpace::Raycast;
+    const std::string expected = bytesOf(mapOf(options, scans));
+    countFilled(!expected.empty());
+    options.free_space.mode = FreeSpace::Projective;
+    ASSERT_EQ(bytesOf(mapOf(options, scans)), expected);
   });
   expectMostlyFilled();
 }

@@ -111,7 +111,7 @@ TEST(ScanPreparation, AnImageMustFitItsScan) {
   scan.image.pixels.assign(3, {0, 5});
   EXPECT_EQ(messageOf(scan), "");
   scan.image.columns_of_turn = 5;
-  EXPECT_EQ(messageOf(scan), "image of a scan: column 5 of a turn of 5");
+  EXPECT_EQ(messageOf(scan), "image of a scan: point 0 has column 5; a turn has columns 0 to 4");
   scan.image.pixels.assign(3, {RangeImage::kNoRow, 5});
   EXPECT_EQ(messageOf(scan), "");
   scan.image.column_step = 0;
@@ -134,11 +134,11 @@ TEST(ScanPreparation, RejectedPointsLeaveTheImage) {
   const PreparedScan prepared = prepareScan(scan, Options{}, report);
   EXPECT_EQ(report.rejectedTotal(), 3U);
   EXPECT_EQ(report.training_points, 3U);
-  ASSERT_EQ(prepared.image.points.size(), 3U);
-  ASSERT_EQ(prepared.image.image.pixels.size(), 3U);
+  ASSERT_EQ(prepared.image_points.points.size(), 3U);
+  ASSERT_EQ(prepared.image_points.image.pixels.size(), 3U);
   for (std::uint16_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(prepared.image.points[i].x(), 1.0F + 2.0F * i);
-    EXPECT_EQ(prepared.image.image.pixels[i],
+    EXPECT_EQ(prepared.image_points.points[i].x(), 1.0F + 2.0F * i);
+    EXPECT_EQ(prepared.image_points.image.pixels[i],
               (RangeImage::Pixel{static_cast<std::uint16_t>(2 * i), 20 * i}));
   }
   EXPECT_TRUE(prepared.points.empty());
@@ -151,14 +151,14 @@ TEST(ScanPreparation, OnlySurfaceCsomLooksAtTheImage) {
   scan.image.pixels.assign(3, {0, 5});
   Options options;
   ScanReport report;
-  EXPECT_FALSE(prepareScan(scan, options, report).image.points.empty());
+  EXPECT_FALSE(prepareScan(scan, options, report).image_points.points.empty());
   options.free_space.mode = FreeSpace::Sampled;
-  EXPECT_TRUE(prepareScan(scan, options, report).image.points.empty());
+  EXPECT_TRUE(prepareScan(scan, options, report).image_points.points.empty());
   options.free_space.mode = FreeSpace::Projective;
   for (const Method method : {Method::SeeCsom, Method::SBki, Method::SCsm}) {
     options.method = method;
     const PreparedScan prepared = prepareScan(scan, options, report);
-    EXPECT_TRUE(prepared.image.points.empty());
+    EXPECT_TRUE(prepared.image_points.points.empty());
     EXPECT_EQ(prepared.beam_ends.size(), 3U) << "as raycast";
   }
 }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <thread>
 
+#include "core/RandomImages.h"
 #include "core/RandomScans.h"
 
 namespace csom::test {
@@ -129,6 +130,23 @@ TEST_P(ThreadsOfAnInsertion, DoNotMeet) {
       one.insert(someScan(seed));
       many.insert(someScan(seed));
     }
+    EXPECT_EQ(bytesOf(many), bytesOf(one)) << toString(free_space);
+  }
+}
+
+TEST(ThreadsOfAnInsertionWithAnImage, DoNotMeet) {
+  RandomImage random(5);
+  Options options = random.imageOptions();
+  const Scan scan = random.image(options, 64, 400);
+  ASSERT_GT(scan.points.size(), 8192U) << "too few to be cut into parts";
+  for (const FreeSpace free_space : {FreeSpace::None, FreeSpace::Projective, FreeSpace::Raycast}) {
+    options.free_space.mode = free_space;
+    options.threads = 1;
+    SemanticMap one(options);
+    options.threads = kThreads;
+    SemanticMap many(options);
+    one.insert(scan);
+    many.insert(scan);
     EXPECT_EQ(bytesOf(many), bytesOf(one)) << toString(free_space);
   }
 }

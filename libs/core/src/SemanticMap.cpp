@@ -52,7 +52,7 @@ ScanReport SemanticMap::insert(const Scan& scan) {
     const PreparedScan prepared = prepareScan(scan, options_, report);
     report.prepare_ms = watch.lap();
     const ScanIncrements kernel_mass = detail::inferIncrements(prepared, options_, report);
-    const ScanIncrements free_space = prepared.image.image.empty()
+    const ScanIncrements free_space = prepared.image_points.image.empty()
                                           ? detail::castFreeSpace(prepared, options_, report)
                                           : ScanIncrements{};
     report.infer_ms = watch.lap();

@@ -40,7 +40,7 @@ NavigationGrid::NavigationGrid(const VoxelSelection& selection, const Navigation
   if (count(State::Free) == 0)
     throw ConfigError(
         "no cell would be free: the map has neither free voxels nor ground of the traversable "
-        "classes at these heights; map with free_space = raycast or sampled, or name other "
+        "classes at these heights; map with free_space other than none, or name other "
         "classes and heights");
 }
 

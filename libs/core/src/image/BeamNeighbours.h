@@ -16,9 +16,10 @@ constexpr BeamId kNoBeam = -1;
 
 /// The points of a scan that have a pixel of their own, as beams in the order of the image.
 ///
-/// Beside a beam in its row lies the next one if no more than 1.6 column steps are between them,
-/// else a beam is missing there. Above it lies the beam of the next row whose column is nearest
-/// (the lower of two), if it is nearer than 0.8 column steps; below it that of the row before.
+/// Beside a beam in its row lies the next one if less than 1.6 column steps are between them, else
+/// a beam is missing there. Above it lies the beam of the next row whose column is nearest, if it
+/// is nearer than 0.8 column steps; below it that of the row before. Of two as near that without a
+/// turn between comes first, then that of the lower column.
 struct BeamNeighbours {
   BeamNeighbours(const RangeImage& image, int threads);
 

@@ -68,21 +68,6 @@ CubeWindows CubeGrid::windowsOf(const SpaceBox& box) const {
   return windows;
 }
 
-CubeWindows CubeGrid::windowsOfCentre(const SpaceBox& box) const {
-  std::array<float, 3> centre{};
-  for (std::size_t axis = 0; axis < 3; ++axis) centre[axis] = box.min[axis] + box.max[axis];
-  const float largest = std::max({std::abs(centre[0]), std::abs(centre[1]), std::abs(centre[2])});
-  CubeWindows windows;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (std::abs(centre[axis]) != largest) continue;
-    const int face = static_cast<int>(2 * axis) + (centre[axis] >= 0 ? 0 : 1);
-    const FaceBox seen = seenThrough(face, box);
-    if (!(seen.nearest > 0)) return {};
-    windows.add(window(face, seen));
-  }
-  return windows;
-}
-
 int CubeGrid::mostPixels(float edge, float nearest) const {
   // (u + e/2)/(d − e/2) − (u − e/2)/(d + e/2) ≤ 2e/(d − e/2) where |u| ≤ d; and both borders.
   return static_cast<int>(std::min(2 * edge / nearest * halfSide(), static_cast<float>(side_))) + 3;

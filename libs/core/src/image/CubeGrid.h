@@ -78,10 +78,6 @@ class CubeGrid {
 
   /// As much of the box as is seen through each face, for those that show any of it.
   CubeWindows windowsOf(const SpaceBox& box) const;
-  /// Through the faces that the centre of a box is seen through: one, or those that meet there. As
-  /// much of the box as lies behind each of them; none if it reaches the plane of the sensor.
-  CubeWindows windowsOfCentre(const SpaceBox& box) const;
-
   /// What boxes of an edge, no nearer than a depth, lie behind along an axis: no more pixels.
   int mostPixels(float edge, float nearest) const;
   /// The level of the pyramid at which a window has a few pixels along each axis.

@@ -19,16 +19,11 @@ double spacingOf(const ImageBeams& beams) {
   double count = 0;
   for (std::size_t a = 0; a < beams.size(); ++a) {
     if (beams.neighbours.next[a] == kNoBeam) continue;
-    const auto b = static_cast<std::size_t>(beams.neighbours.next[a]);
-    const float x = beams.y[a] * beams.z[b] - beams.z[a] * beams.y[b];
-    const float y = beams.z[a] * beams.x[b] - beams.x[a] * beams.z[b];
-    const float z = beams.x[a] * beams.y[b] - beams.y[a] * beams.x[b];
-    const auto squared = [&](std::size_t i) {
-      return beams.x[i] * beams.x[i] + beams.y[i] * beams.y[i] + beams.z[i] * beams.z[i];
-    };
-    const float both = squared(a) * squared(b);
+    const BeamVector one = beams.end(a);
+    const BeamVector next = beams.end(static_cast<std::size_t>(beams.neighbours.next[a]));
+    const float both = squaredNorm(one) * squaredNorm(next);
     if (!(both > 0)) continue;
-    sum += (x * x + y * y + z * z) / both;
+    sum += squaredCross(one, next) / both;
     ++count;
   }
   return count > 0 ? std::sqrt(sum / count) : 0;
@@ -56,23 +51,6 @@ bool DepthCube::holdsForAll(const DepthPyramid& pyramid, const CubeWindow& windo
   return true;
 }
 
-bool DepthCube::isInFront(const CubeWindow& window) const {
-  const SlidingMaxima& nearest = faceAt(window.face).nearest;
-  if (nearest.empty()) return false;
-  const int longer = std::max(window.last_u - window.first_u, window.last_v - window.first_v) + 1;
-  int level = 0;
-  while (2 << level <= longer) ++level;
-  level = std::min(level, grid_.levels() - 2);
-  const int back = (1 << level) - 1;
-  const int side = grid_.side();
-  const float* const squares = nearest.all() + static_cast<std::ptrdiff_t>(level) * side * side;
-  float inverse = 0;
-  for (const int v : {window.first_v, std::max(window.last_v - back, 0)})
-    for (const int u : {window.first_u, std::max(window.last_u - back, 0)})
-      inverse = std::max(inverse, squares[v * side + u]);
-  return inverse > 0 && inverse <= 1 / window.farthest;
-}
-
 bool DepthCube::isAllInFront(const CubeWindow& window, int level) const {
   const DepthPyramid& complete = faceAt(window.face).complete;
   const float limit = 1 / window.farthest;
@@ -87,14 +65,6 @@ bool DepthCube::isAllBehind(const CubeWindow& window, int level) const {
   return farthest.empty() || holdsForAll(farthest, window, level, [&](float inverse) {
            return inverse == 0 || inverse > limit;
          });
-}
-
-SpaceBox ChunkBoxes::box(int index_in_chunk) const {
-  const VoxelIndex v = voxelOfChunk({0, 0, 0}, index_in_chunk);
-  const auto x = static_cast<std::size_t>(v.x);
-  const auto y = static_cast<std::size_t>(v.y);
-  const auto z = static_cast<std::size_t>(v.z);
-  return {{min[0][x], min[1][y], min[2][z]}, {max[0][x], max[1][y], max[2][z]}};
 }
 
 namespace {
@@ -139,11 +109,14 @@ CSOM_INLINE PixelRange rangeOf(const Lanes& min, const Lanes& max, const Lanes& 
 /// Looks through one face at the voxels of a chunk. What a voxel lies behind along u depends on
 /// where it lies along u and the depth alone, and so along v: both are found for eight at once.
 struct alignas(kLaneAlignment) ChunkView {
-  std::array<Lanes, kChunkSide> far;     ///< inverse depth: rows along x
-  std::array<PixelRange, kChunkSide> u;  ///< rows along x; by y, or the depth if that is z
-  std::array<PixelRange, kChunkSide>
-      v;  ///< if the depth is x: by z. Else lanes are z or y, by depth
-  std::array<IntLanes, kChunkSide * kChunkSide> seen;  ///< rows along x, by y and z
+  /// Inverse of the depth up to which a voxel must be seen through, of rows along x; by z if that
+  /// is the depth, else by y. 0: it reaches the plane of the sensor and cannot be.
+  std::array<Lanes, kChunkSide> far;
+  /// Along u, of the same rows; along v, of rows along x by z if x is the depth, else of rows along
+  /// v by depth.
+  std::array<PixelRange, kChunkSide> u, v;
+  /// Whether the centre is seen through the face, of rows along x by y and z.
+  std::array<IntLanes, kChunkSide * kChunkSide> seen;
 };
 
 CSOM_EVERY_PROCESSOR
@@ -153,13 +126,14 @@ void lookAt(const ChunkBoxes& boxes, int face, bool one_face, const SquareImage&
   const ChunkBoxes::Bounds& first = axes.positive ? boxes.min[axes.depth] : boxes.max[axes.depth];
   const ChunkBoxes::Bounds& last = axes.positive ? boxes.max[axes.depth] : boxes.min[axes.depth];
   const float sign = axes.positive ? 1 : -1;
-  // What no voxel is seen at is no matter, but a number.
-  const auto depthOf = [&](float at) { return sign * at > 0 ? sign * at : 1; };
+  // What is not in front of the sensor has no range of pixels: any numbers.
+  const auto nearOf = [&](std::size_t i) { return sign * first[i] > 0 ? sign / first[i] : 1; };
+  const auto farOf = [&](std::size_t i) { return sign * first[i] > 0 ? sign / last[i] : 0; };
   if (axes.depth == 0) {
     Lanes near, far;
     for (std::size_t i = 0; i < kLanes; ++i) {
-      near[i] = 1 / depthOf(first[i]);
-      far[i] = 1 / depthOf(last[i]);
+      near[i] = nearOf(i);
+      far[i] = farOf(i);
     }
     for (std::size_t i = 0; i < kChunkSide; ++i) {
       view.far[i] = far;
@@ -167,13 +141,12 @@ void lookAt(const ChunkBoxes& boxes, int face, bool one_face, const SquareImage&
       view.v[i] = rangeOf(Lanes{} + boxes.min[2][i], Lanes{} + boxes.max[2][i], near, far, image);
     }
   } else {
-    const std::size_t other = axes.depth == 1 ? 2 : 1;
     for (std::size_t i = 0; i < kChunkSide; ++i) {
-      const Lanes near = Lanes{} + 1 / depthOf(first[i]);
-      const Lanes far = Lanes{} + 1 / depthOf(last[i]);
+      const Lanes near = Lanes{} + nearOf(i);
+      const Lanes far = Lanes{} + farOf(i);
       view.far[i] = far;
       view.u[i] = rangeOf(load(boxes.min[0]), load(boxes.max[0]), near, far, image);
-      view.v[i] = rangeOf(load(boxes.min[other]), load(boxes.max[other]), near, far, image);
+      view.v[i] = rangeOf(load(boxes.min[axes.v]), load(boxes.max[axes.v]), near, far, image);
     }
   }
   if (one_face) return;

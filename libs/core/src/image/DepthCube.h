@@ -20,8 +20,6 @@ namespace csom::detail {
 struct ChunkBoxes {
   using Bounds = std::array<float, kChunkSide>;
   std::array<Bounds, 3> min, max;
-
-  SpaceBox box(int index_in_chunk) const;
 };
 
 /// A pixel of the cube holds the inverse of the depth [1/m] at which something may be seen there at
@@ -37,13 +35,12 @@ class CSOM_OF_ONE_BINARY DepthCube {
 
   const CubeGrid& grid() const { return grid_; }
 
-  // For a voxel, a window is looked at through squares of pixels: of the largest edge 2^n that is
-  // no longer than its longer side, at each of its corners, inside it along that side.
-
-  /// Whether the box lies in front of all that was drawn in its window, and anything was.
-  bool isInFront(const CubeWindow& window) const;
-  /// Of the voxels of a chunk, a bit each, takes out those for which that does not hold although
-  /// their centre is seen through the face, or all of them through this `one_face`.
+  /// Of the voxels of a chunk, a bit each, takes out those that do not lie in front of all that was
+  /// drawn in their window, or in whose window nothing was. Asks those whose centre is seen through
+  /// the face; all of them if they are all seen through this `one_face`.
+  ///
+  /// A window is looked at through squares of pixels: of the largest edge 2^n that is no longer
+  /// than its longer side, at each of its corners, inside it along that side.
   void keepInFront(const ChunkBoxes& boxes, int face, bool one_face,
                    std::array<std::uint64_t, kVoxelsPerChunk / 64>& voxels) const;
   /// Whether the box, and every box in it, lies in front of what was drawn: that was everywhere.

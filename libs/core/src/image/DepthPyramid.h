@@ -9,60 +9,64 @@
 
 namespace csom::detail {
 
-/// Level after level, each half as wide as the one below. 0 is where nothing was drawn: memory
-/// comes as zeros, and is not touched there.
+/// Zeros that take no memory until they are written to: most of a face is never drawn.
+class LazyZeros {
+ public:
+  void allocate(std::size_t size) {
+    numbers_.reset(static_cast<float*>(std::calloc(size, sizeof(float))));
+    if (numbers_ == nullptr) throw std::bad_alloc();
+  }
+  bool empty() const { return numbers_ == nullptr; }
+  float* data() { return numbers_.get(); }
+  const float* data() const { return numbers_.get(); }
+
+ private:
+  struct Free {
+    void operator()(float* numbers) const { std::free(numbers); }
+  };
+  std::unique_ptr<float[], Free> numbers_;
+};
+
+/// Level after level, each half as wide as the one below. 0 is where nothing was drawn.
 class DepthPyramid {
  public:
-  void allocate(int side) {
+  void allocate(int side, int levels) {
     side_ = static_cast<std::size_t>(side);
-    std::size_t pixels = 0;
-    for (std::size_t edge = side_; edge > 0; edge /= 2) pixels += edge * edge;
-    pixels_.reset(static_cast<float*>(std::calloc(pixels, sizeof(float))));
-    if (pixels_ == nullptr) throw std::bad_alloc();
+    pixels_.allocate(offset(levels));
   }
-  bool empty() const { return pixels_ == nullptr; }
+  bool empty() const { return pixels_.empty(); }
 
-  float* level(int level) { return pixels_.get() + offset(level); }
-  const float* level(int level) const { return pixels_.get() + offset(level); }
+  float* level(int level) { return pixels_.data() + offset(level); }
+  const float* level(int level) const { return pixels_.data() + offset(level); }
 
  private:
   std::size_t offset(int level) const {
     const std::size_t all = 4 * side_ * side_;
     return (all - (all >> (2 * static_cast<unsigned>(level)))) / 3;
   }
-  struct Free {
-    void operator()(float* pixels) const { std::free(pixels); }
-  };
 
-  std::unique_ptr<float[], Free> pixels_;
+  LazyZeros pixels_;
   std::size_t side_ = 0;
 };
 
 /// Largest inverse depths of squares of 2^level pixels an edge, for each pixel at which one begins;
-/// as much of it as lies in the image. Four of them, overlapping, cover any larger window.
+/// of as much of it as lies in the image. Four of them, overlapping, cover any larger window.
 class SlidingMaxima {
  public:
-  void allocate(int side) {
+  void allocate(int side, int levels) {
     side_ = static_cast<std::size_t>(side);
-    std::size_t levels = 0;
-    for (std::size_t edge = side_; edge > 1; edge /= 2) ++levels;
-    squares_.reset(static_cast<float*>(std::calloc(levels * side_ * side_, sizeof(float))));
-    if (squares_ == nullptr) throw std::bad_alloc();
+    squares_.allocate(static_cast<std::size_t>(levels) * side_ * side_);
   }
-  bool empty() const { return squares_ == nullptr; }
+  bool empty() const { return squares_.empty(); }
 
   /// Row after row; levels lie one after the other.
   float* level(int level) {
-    return squares_.get() + static_cast<std::size_t>(level) * side_ * side_;
+    return squares_.data() + static_cast<std::size_t>(level) * side_ * side_;
   }
-  const float* all() const { return squares_.get(); }
+  const float* all() const { return squares_.data(); }
 
  private:
-  struct Free {
-    void operator()(float* squares) const { std::free(squares); }
-  };
-
-  std::unique_ptr<float[], Free> squares_;
+  LazyZeros squares_;
   std::size_t side_ = 0;
 };
 

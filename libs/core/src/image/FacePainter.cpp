@@ -90,41 +90,52 @@ FacePainter::Projection FacePainter::project(std::size_t beam) const {
   return {p[axes_.u] / depth, p[axes_.v] / depth, 1 / depth};
 }
 
+struct FacePainter::Bounds {
+  float min_u, max_u, min_v, max_v;
+  float farthest, nearest;  ///< inverse depth
+};
+
+template <std::size_t N>
+FacePainter::Bounds FacePainter::boundsOf(const std::array<Projection, N>& corners) {
+  const Projection& first = corners.front();
+  Bounds b{first.u, first.u, first.v, first.v, first.inverse, first.inverse};
+  for (const Projection& corner : corners) {
+    b.min_u = std::min(b.min_u, corner.u);
+    b.max_u = std::max(b.max_u, corner.u);
+    b.min_v = std::min(b.min_v, corner.v);
+    b.max_v = std::max(b.max_v, corner.v);
+    b.farthest = std::min(b.farthest, corner.inverse);
+    b.nearest = std::max(b.nearest, corner.inverse);
+  }
+  return b;
+}
+
+FacePainter::PixelBox FacePainter::pixelsOf(const Bounds& bounds) const {
+  return {grid_.firstPixel(bounds.min_u), grid_.lastPixel(bounds.max_u),
+          grid_.firstPixel(bounds.min_v), grid_.lastPixel(bounds.max_v)};
+}
+
 void FacePainter::draw(const Corners& corners) {
   const std::array<Projection, 4> at{project(corners[0]), project(corners[1]), project(corners[2]),
                                      project(corners[3])};
-  const auto [min_u, max_u] = std::minmax({at[0].u, at[1].u, at[2].u, at[3].u});
-  const auto [min_v, max_v] = std::minmax({at[0].v, at[1].v, at[2].v, at[3].v});
-  const auto [farthest, nearest] =
-      std::minmax({at[0].inverse, at[1].inverse, at[2].inverse, at[3].inverse});
-  if (!(farthest > 0) || !(nearest < kNearest)) return;
-  const float spacing = std::max(max_u - min_u, max_v - min_v);
-  const float off_centre = std::max({min_u * min_u, max_u * max_u, min_v * min_v, max_v * max_v});
+  const Bounds b = boundsOf(at);
+  if (!(b.farthest > 0) || !(b.nearest < kNearest)) return;
+  const float spacing = std::max(b.max_u - b.min_u, b.max_v - b.min_v);
+  const float off_centre =
+      std::max({b.min_u * b.min_u, b.max_u * b.max_u, b.min_v * b.min_v, b.max_v * b.max_v});
   if (!(spacing < kWidest * (1 + off_centre))) return;
-  if (max_u < -1 || min_u > 1 || max_v < -1 || min_v > 1) return;
-  const int first_u = grid_.firstPixel(min_u);
-  const int last_u = grid_.lastPixel(max_u);
-  const int first_v = grid_.firstPixel(min_v);
-  const int last_v = grid_.lastPixel(max_v);
-  prepare(first_u, last_u, first_v, last_v);
+  if (b.max_u < -1 || b.min_u > 1 || b.max_v < -1 || b.min_v > 1) return;
+  const PixelBox box = pixelsOf(b);
+  prepare(box);
   spacings_ += spacing;
   ++drawings_;
-  const bool is_small = last_u - first_u < kBoxPixels && last_v - first_v < kBoxPixels;
   const bool is_surface = isSurface(corners);
-  if (is_small && (!is_surface || (first_u == last_u && first_v == last_v))) {
-    for (int v = first_v; v <= last_v; ++v)
-      for (int u = first_u; u <= last_u; ++u) put(u, v, nearest);
-    return;
-  }
   for (const Triangle& triangle : {Triangle{at[0], at[1], at[2]}, Triangle{at[1], at[3], at[2]}}) {
-    const Plane plane = is_surface ? planeThrough(triangle) : flat(nearest);
-    if (is_small) {
-      for (int v = first_v; v <= last_v; ++v)
-        for (int u = first_u; u <= last_u; ++u)
-          put(u, v, plane.at(grid_.centreOf(u), grid_.centreOf(v)));
-    } else {
-      drawTriangle(triangle, plane);
-    }
+    const Plane plane = is_surface ? planeThrough(triangle) : flat(b.nearest);
+    if (box.last_u - box.first_u < kBoxPixels && box.last_v - box.first_v < kBoxPixels)
+      fill(box, plane);
+    else
+      fillTriangle(triangle, plane);
   }
 }
 
@@ -135,38 +146,39 @@ bool FacePainter::isSurface(const Corners& corners) const {
          beams_.neighbours.above[corners[1]] == static_cast<BeamId>(corners[3]);
 }
 
-/// Twice the area, positive if a, b, c turn from u to v.
-template <class Triangle>
-static float areaOf(const Triangle& t) {
+/// Twice the area, positive if the corners turn from u to v.
+float FacePainter::areaOf(const Triangle& t) {
   return (t[1].u - t[0].u) * (t[2].v - t[0].v) - (t[2].u - t[0].u) * (t[1].v - t[0].v);
 }
 
 FacePainter::Plane FacePainter::planeThrough(const Triangle& t) const {
-  const auto [farthest, nearest] = std::minmax({t[0].inverse, t[1].inverse, t[2].inverse});
+  const Bounds b = boundsOf(t);
   const float area = areaOf(t);
-  if (area == 0) return flat(nearest);
+  if (area == 0) return flat(b.nearest);
   const float to_b = t[1].inverse - t[0].inverse;
   const float to_c = t[2].inverse - t[0].inverse;
   const float along_u = (to_b * (t[2].v - t[0].v) - to_c * (t[1].v - t[0].v)) / area;
   const float along_v = (to_c * (t[1].u - t[0].u) - to_b * (t[2].u - t[0].u)) / area;
   const float margin = (std::abs(along_u) + std::abs(along_v)) / static_cast<float>(side_);
-  return {t[0], along_u, along_v, margin, farthest, nearest};
+  return {t[0], along_u, along_v, margin, b.farthest, b.nearest};
+}
+
+void FacePainter::fill(const PixelBox& box, const Plane& plane) {
+  for (int v = box.first_v; v <= box.last_v; ++v)
+    for (int u = box.first_u; u <= box.last_u; ++u)
+      put(u, v, plane.at(grid_.centreOf(u), grid_.centreOf(v)));
 }
 
 /// Each pixel whose centre lies in it, its border included.
-void FacePainter::drawTriangle(const Triangle& t, const Plane& plane) {
-  const auto [min_u, max_u] = std::minmax({t[0].u, t[1].u, t[2].u});
-  const auto [min_v, max_v] = std::minmax({t[0].v, t[1].v, t[2].v});
-  const int first_u = grid_.firstPixel(min_u);
-  const int last_u = grid_.lastPixel(max_u);
-  const int last_v = grid_.lastPixel(max_v);
+void FacePainter::fillTriangle(const Triangle& t, const Plane& plane) {
+  const PixelBox box = pixelsOf(boundsOf(t));
   const float turn = areaOf(t) > 0 ? 1.0F : -1.0F;
   const auto isInside = [&](const Projection& from, const Projection& to, float u, float v) {
     return ((to.u - from.u) * (v - from.v) - (to.v - from.v) * (u - from.u)) * turn >= 0;
   };
-  for (int v = grid_.firstPixel(min_v); v <= last_v; ++v) {
+  for (int v = box.first_v; v <= box.last_v; ++v) {
     const float at_v = grid_.centreOf(v);
-    for (int u = first_u; u <= last_u; ++u) {
+    for (int u = box.first_u; u <= box.last_u; ++u) {
       const float at_u = grid_.centreOf(u);
       if (isInside(t[0], t[1], at_u, at_v) && isInside(t[1], t[2], at_u, at_v) &&
           isInside(t[2], t[0], at_u, at_v))
@@ -176,17 +188,17 @@ void FacePainter::drawTriangle(const Triangle& t, const Plane& plane) {
 }
 
 /// Makes room when the first quadrilateral comes, and notes where they lie.
-void FacePainter::prepare(int first_u, int last_u, int first_v, int last_v) {
+void FacePainter::prepare(const PixelBox& box) {
   if (image_ == nullptr) {
     side_ = static_cast<std::size_t>(grid_.side());
-    out_.nearest.allocate(grid_.side());
+    out_.nearest.allocate(grid_.side(), grid_.levels() - 1);
     image_ = out_.nearest.level(0);
     drawn_ = {side_, 0, side_, 0};
   }
-  drawn_.first_u = std::min(drawn_.first_u, static_cast<std::size_t>(first_u));
-  drawn_.end_u = std::max(drawn_.end_u, static_cast<std::size_t>(last_u) + 1);
-  drawn_.first_v = std::min(drawn_.first_v, static_cast<std::size_t>(first_v));
-  drawn_.end_v = std::max(drawn_.end_v, static_cast<std::size_t>(last_v) + 1);
+  drawn_.first_u = std::min(drawn_.first_u, static_cast<std::size_t>(box.first_u));
+  drawn_.end_u = std::max(drawn_.end_u, static_cast<std::size_t>(box.last_u) + 1);
+  drawn_.first_v = std::min(drawn_.first_v, static_cast<std::size_t>(box.first_v));
+  drawn_.end_v = std::max(drawn_.end_v, static_cast<std::size_t>(box.last_v) + 1);
 }
 
 void FacePainter::put(int u, int v, float inverse) {
@@ -230,13 +242,13 @@ void FacePainter::closeGaps() {
 
 void FacePainter::buildPyramids() {
   for (DepthPyramid* pyramid : {&out_.complete, &out_.farthest}) {
-    pyramid->allocate(grid_.side());
+    pyramid->allocate(grid_.side(), grid_.levels());
     for (std::size_t v = drawn_.first_v; v < drawn_.end_v; ++v)
       std::copy(image_ + v * side_ + drawn_.first_u, image_ + v * side_ + drawn_.end_u,
                 pyramid->level(0) + v * side_ + drawn_.first_u);
   }
+  for (int level = 1; level < grid_.levels() - 1; ++level) slide(level);
   for (int level = 1; level < grid_.levels(); ++level) {
-    slide(level);
     shrink(out_.complete, level, [](float a, float b) {
       const float larger = a > b ? a : b;
       return a == 0 || b == 0 ? 0 : larger;
@@ -268,7 +280,6 @@ void FacePainter::shrink(DepthPyramid& pyramid, int level, const Choose& choose)
 
 /// Makes each square of a level of four of the level below it, where anything was drawn.
 void FacePainter::slide(int level) {
-  if (level >= grid_.levels() - 1) return;
   const std::size_t half = std::size_t{1} << (level - 1);
   const float* const from = out_.nearest.level(level - 1);
   float* const to = out_.nearest.level(level);

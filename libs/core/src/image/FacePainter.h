@@ -45,6 +45,10 @@ class FacePainter {
     float u, v, inverse;
   };
   using Triangle = std::array<Projection, 3>;
+  struct Bounds;
+  struct PixelBox {
+    int first_u, last_u, first_v, last_v;
+  };
   struct Plane;
   /// Of the pixels that were drawn.
   struct Rectangle {
@@ -54,10 +58,15 @@ class FacePainter {
   void draw(const Corners& corners);
   Projection project(std::size_t beam) const;
   bool isSurface(const Corners& corners) const;
+  template <std::size_t N>
+  static Bounds boundsOf(const std::array<Projection, N>& corners);
+  PixelBox pixelsOf(const Bounds& bounds) const;
+  static float areaOf(const Triangle& triangle);
   static Plane flat(float inverse);
   Plane planeThrough(const Triangle& triangle) const;
-  void drawTriangle(const Triangle& triangle, const Plane& plane);
-  void prepare(int first_u, int last_u, int first_v, int last_v);
+  void fill(const PixelBox& box, const Plane& plane);
+  void fillTriangle(const Triangle& triangle, const Plane& plane);
+  void prepare(const PixelBox& box);
   void put(int u, int v, float inverse);
 
   void closeGaps();

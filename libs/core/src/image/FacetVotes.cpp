@@ -66,8 +66,7 @@ void dividePoints(const HalfStepPosition& from, const HalfStepPosition& to, std:
     const IntLanes to_end = pieces - count;
     const IntLanes nearer = count < to_end ? count : to_end;
     const Lanes distance = piece * __builtin_convertvector(nearer, Lanes);
-    const IntLanes weights =
-        __builtin_convertvector(kFacetWeight / (1 + distance * distance) + 0.5F, IntLanes);
+    const IntLanes weights = __builtin_convertvector(facetWeight(distance), IntLanes);
     std::memcpy(points.weight.data() + i - 1, &weights, sizeof weights);
     count += static_cast<std::int32_t>(kLanes);
   }
@@ -82,10 +81,7 @@ class FacetDrawing {
         surely_whole_(0.99F / (pieces_per_metre_ * pieces_per_metre_)) {}
 
   void draw(std::size_t a, std::size_t b) {
-    const float dx = beams_.x[b] - beams_.x[a];
-    const float dy = beams_.y[b] - beams_.y[a];
-    const float dz = beams_.z[b] - beams_.z[a];
-    const float squared = dx * dx + dy * dy + dz * dz;
+    const float squared = squaredNorm(between(beams_.end(a), beams_.end(b)));
     if (squared < surely_whole_) return;  // one piece: nothing between the hits
     const float length = std::sqrt(squared);
     const auto wanted = static_cast<std::int32_t>(
@@ -116,7 +112,7 @@ class FacetDrawing {
 
 void addHits(const PreparedScan& scan, const ImageBeams& beams, const Options& options,
              std::size_t begin, std::size_t end, VoxelWords& words) {
-  const ImagePoints& points = scan.image;
+  const ImagePoints& points = scan.image_points;
   const auto classes = static_cast<std::size_t>(options.number_of_classes);
   for (std::size_t i = begin; i < end; ++i) {
     const HalfStepPosition& p = beams.positions[i];

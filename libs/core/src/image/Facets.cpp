@@ -24,19 +24,6 @@ constexpr float square(float v) {
   return v * v;
 }
 
-struct Vector {
-  float x, y, z;
-};
-float dot(const Vector& a, const Vector& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-float squaredNorm(const Vector& a) {
-  return dot(a, a);
-}
-float squaredCross(const Vector& a, const Vector& b) {
-  return squaredNorm({a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x});
-}
-
 /// Lengths that depend on the resolution [m²].
 struct Limits {
   explicit Limits(float resolution)
@@ -55,9 +42,9 @@ class SegmentTest {
   /// From beam a to b; `before` lies before a, `after` behind b, or there is none.
   bool isSurface(BeamId a, BeamId b, BeamId before, BeamId after, bool across_rows) const {
     if (b == kNoBeam || isFree(a) || isFree(b)) return false;
-    const Vector from = at(a);
-    const Vector to = at(b);
-    const Vector segment = between(from, to);
+    const BeamVector from = beams_.end(index(a));
+    const BeamVector to = beams_.end(index(b));
+    const BeamVector segment = between(from, to);
     const float squared = squaredNorm(segment);
     if (squared < limits_.short_squared) return true;
     if (squared > square(kLongest)) return false;
@@ -67,7 +54,7 @@ class SegmentTest {
     const bool any_class = beams_.label[index(a)] == beams_.label[index(b)];
     const bool flat = across_rows && square(segment.z) < square(kFlatRise) * squared;
     if (!any_class && !flat) return false;
-    const auto continues = [&](const Vector& other) {
+    const auto continues = [&](const BeamVector& other) {
       const float cosine = dot(other, segment);
       if (!(cosine > 0)) return false;
       const float other_squared = squaredNorm(other);
@@ -78,21 +65,14 @@ class SegmentTest {
         return false;
       return any_class || deviation < limits_.flat_squared * other_squared;
     };
-    return (before != kNoBeam && !isFree(before) && continues(between(at(before), from))) ||
-           (after != kNoBeam && !isFree(after) && continues(between(to, at(after))));
+    return (before != kNoBeam && !isFree(before) &&
+            continues(between(beams_.end(index(before)), from))) ||
+           (after != kNoBeam && !isFree(after) && continues(between(to, beams_.end(index(after)))));
   }
 
  private:
   static std::size_t index(BeamId beam) { return static_cast<std::size_t>(beam); }
   bool isFree(BeamId beam) const { return beams_.label[index(beam)] == kFreeClass; }
-  Vector at(BeamId beam) const {
-    const std::size_t i = index(beam);
-    return {beams_.x[i], beams_.y[i], beams_.z[i]};
-  }
-  static Vector between(const Vector& a, const Vector& b) {
-    return {b.x - a.x, b.y - a.y, b.z - a.z};
-  }
-
   const ImageBeams& beams_;
   Limits limits_;
 };

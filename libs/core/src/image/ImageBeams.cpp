@@ -18,22 +18,24 @@ ClassId likeliest(const float* scores, int classes) {
 }  // namespace
 
 ImageBeams::ImageBeams(const PreparedScan& scan, const Options& options)
-    : neighbours(scan.image.image, options.threads) {
-  const ImagePoints& in = scan.image;
+    : neighbours(scan.image_points.image, options.threads) {
+  const ImagePoints& in = scan.image_points;
   const Grid grid(options.resolution);
   base = voxelOfChunk(chunkOf(grid.voxelAt(scan.origin)), 0);
-  positions.resize(in.points.size());
-  parallelRanges(in.points.size(), options.threads, [&](std::size_t begin, std::size_t end) {
+  const auto positionOf = [&](const Eigen::Vector3d& in_map) -> HalfStepPosition {
     constexpr double kSteps = 1 << (HalfStepPosition::kBits - 1);
-    const auto position = [&](double in_map, std::int32_t base_voxel) {
-      const double steps = (in_map / options.resolution - base_voxel) * kSteps;
+    const auto along = [&](double coordinate, std::int32_t base_voxel) {
+      const double steps = (coordinate / options.resolution - base_voxel) * kSteps;
       const auto whole = static_cast<std::int32_t>(steps);  // towards 0: no call as std::floor() is
       return 2 * (whole - (steps < whole ? 1 : 0)) + 1;
     };
-    for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Vector3d p = scan.origin + in.points[i].cast<double>();
-      positions[i] = {position(p.x(), base.x), position(p.y(), base.y), position(p.z(), base.z)};
-    }
+    return {along(in_map.x(), base.x), along(in_map.y(), base.y), along(in_map.z(), base.z)};
+  };
+  sensor = positionOf(scan.origin);
+  positions.resize(in.points.size());
+  parallelRanges(in.points.size(), options.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      positions[i] = positionOf(scan.origin + in.points[i].cast<double>());
   });
   const std::size_t beams = neighbours.size();
   for (std::vector<float>* axis : {&x, &y, &z}) axis->resize(beams);

@@ -25,7 +25,7 @@ namespace {
 /// Everything that is known about a chunk: cells of the parts, and free voxels.
 struct ChunkSource {
   std::uint64_t key;
-  std::uint32_t part;  ///< kFreePart: `index` is that of a FreeChunk
+  std::uint32_t part;  ///< kFreePart: `index` is that of free voxels
   std::uint32_t index;
 
   static constexpr std::uint32_t kFreePart = ~std::uint32_t{0};
@@ -70,7 +70,7 @@ class ImageInference {
 
   /// Each part has words of its own: which part has what does not change their sum.
   void vote() {
-    const std::size_t points = scan_.image.points.size();
+    const std::size_t points = scan_.image_points.points.size();
     const std::size_t count = partsFor(points, options_.threads);
     parts_.resize(count);
     parallelRanges(count, options_.threads, [&](std::size_t first, std::size_t last) {
@@ -84,33 +84,17 @@ class ImageInference {
   }
 
   void findFree() {
-    switch (options_.free_space.mode) {
-      case FreeSpace::Projective:
-        free_ = findFreeSpace(beams_, DepthCube(beams_, facets_, options_.threads), scan_.origin,
-                              options_);
-        break;
-      case FreeSpace::Raycast:
-        castRays();
-        break;
-      case FreeSpace::Sampled:
-      case FreeSpace::None:
-        break;
-    }
+    ScanReport with_surfaces;  // not what the caller's report counts
+    if (options_.free_space.mode == FreeSpace::Projective)
+      free_ = findFreeSpace(beams_, DepthCube(beams_, facets_, options_.threads), options_);
+    if (options_.free_space.mode == FreeSpace::Raycast)
+      free_ = castFreeSpace(scan_, options_, with_surfaces);
   }
 
-  void castRays() {
-    ScanReport rays;
-    for (const ChunkIncrements& chunk : castFreeSpace(scan_, options_, rays)) {
-      const ChunkIndex base = chunkOf(beams_.base);
-      FreeChunk free{VoxelWords::keyOf(
-                         {chunk.chunk.x - base.x, chunk.chunk.y - base.y, chunk.chunk.z - base.z}),
-                     {}};
-      for (const CountIncrement& increment : chunk.increments) {
-        free.free.voxels[increment.voxel >> 6U] |= std::uint64_t{1} << (increment.voxel & 63U);
-        free.free.count = increment.count;
-      }
-      free_.push_back(free);
-    }
+  /// As VoxelWords has it.
+  std::uint64_t keyOf(const ChunkIndex& chunk) const {
+    const ChunkIndex base = chunkOf(beams_.base);
+    return chunkKey({chunk.x - base.x, chunk.y - base.y, chunk.z - base.z});
   }
 
   std::vector<ChunkSource> sortedSources() const {
@@ -120,7 +104,8 @@ class ImageInference {
         sources.push_back({parts_[part].chunk(i).key, static_cast<std::uint32_t>(part),
                            static_cast<std::uint32_t>(i)});
     for (std::size_t i = 0; i < free_.size(); ++i)
-      sources.push_back({free_[i].key, ChunkSource::kFreePart, static_cast<std::uint32_t>(i)});
+      sources.push_back(
+          {keyOf(free_[i].chunk), ChunkSource::kFreePart, static_cast<std::uint32_t>(i)});
     std::sort(sources.begin(), sources.end());
     return sources;
   }
@@ -128,7 +113,7 @@ class ImageInference {
   /// The increments of one chunk.
   ChunkIncrements combine(const ChunkSource* first, const ChunkSource* last,
                           Figures& figures) const {
-    const ChunkIndex from_base = VoxelWords::chunkOfKey(first->key);
+    const ChunkIndex from_base = chunkOfKey(first->key);
     const ChunkIndex base = chunkOf(beams_.base);
     ChunkIncrements out{{base.x + from_base.x, base.y + from_base.y, base.z + from_base.z}, {}, {}};
     if (!isAddressable(out.chunk)) return out;
@@ -171,7 +156,7 @@ class ImageInference {
   ImageBeams beams_;
   Facets facets_;
   std::vector<VoxelWords> parts_;
-  std::vector<FreeChunk> free_;
+  ScanIncrements free_;
 };
 
 }  // namespace

@@ -24,16 +24,14 @@ struct Node {
 
 class FreeSpaceSearch {
  public:
-  FreeSpaceSearch(const ImageBeams& beams, const DepthCube& cube, const Eigen::Vector3d& origin,
-                  const Options& options)
-      : cube_(cube), resolution_(static_cast<float>(options.resolution)) {
-    const std::array<std::int32_t, 3> base{beams.base.x, beams.base.y, beams.base.z};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      // As beams end at odd multiples of 1/256 voxel, so the sensor lies at one.
-      constexpr double kSteps = 1 << (HalfStepPosition::kBits - 1);
-      const double voxels = origin[static_cast<int>(axis)] / options.resolution - base[axis];
-      sensor_[axis] = static_cast<float>((std::floor(voxels * kSteps) + 0.5) / kSteps);
-    }
+  FreeSpaceSearch(const ImageBeams& beams, const DepthCube& cube, const Options& options)
+      : cube_(cube),
+        base_(chunkOf(beams.base)),
+        resolution_(static_cast<float>(options.resolution)) {
+    constexpr float kVoxel = 1 << HalfStepPosition::kBits;
+    sensor_ = {static_cast<float>(beams.sensor.x) / kVoxel,
+               static_cast<float>(beams.sensor.y) / kVoxel,
+               static_cast<float>(beams.sensor.z) / kVoxel};
     float reach = 0;
     for (std::size_t i = 0; i < beams.size(); ++i)
       reach = std::max({reach, std::abs(beams.x[i]), std::abs(beams.y[i]), std::abs(beams.z[i])});
@@ -41,7 +39,7 @@ class FreeSpaceSearch {
     while (static_cast<float>(1 << root_level_) < chunks) ++root_level_;
   }
 
-  std::vector<FreeChunk> run(int threads) {
+  ScanIncrements run(int threads) {
     // Enough pieces for threads to share.
     std::vector<Node> nodes;
     const int level = std::max(0, root_level_ - 3);
@@ -49,10 +47,10 @@ class FreeSpaceSearch {
     for (std::int32_t z = -half; z < half; ++z)
       for (std::int32_t y = -half; y < half; ++y)
         for (std::int32_t x = -half; x < half; ++x) nodes.push_back({level, x, y, z});
-    std::vector<FreeChunk> out;
+    ScanIncrements out;
     std::mutex mutex;
     parallelRanges(nodes.size(), threads, [&](std::size_t begin, std::size_t end) {
-      std::vector<FreeChunk> found;
+      ScanIncrements found;
       for (std::size_t i = begin; i < end; ++i) search(nodes[i], found);
       const std::lock_guard<std::mutex> lock(mutex);
       out.insert(out.end(), found.begin(), found.end());
@@ -90,7 +88,8 @@ class FreeSpaceSearch {
     }
     return boxes;
   }
-  void search(const Node& node, std::vector<FreeChunk>& out) const {
+
+  void search(const Node& node, ScanIncrements& out) const {
     const CubeWindows windows = cube_.grid().windowsOf(boxOf(node));
     if (std::all_of(windows.begin(), windows.end(),
                     [&](const CubeWindow& window) { return isAllBehind(window); }))
@@ -127,40 +126,18 @@ class FreeSpaceSearch {
     return cube_.isAllInFront(larger, cube_.grid().levelOf(larger));
   }
 
-  void searchChunk(const Node& node, const CubeWindows& windows,
-                   std::vector<FreeChunk>& out) const {
-    FreeChunk chunk{VoxelWords::keyOf({node.x, node.y, node.z}), {{}, countAt(windows)}};
-    const bool reaches_sensor = std::any_of(windows.begin(), windows.end(),
-                                            [](const CubeWindow& w) { return !(w.nearest > 0); });
-    if (reaches_sensor) {
-      searchAroundSensor(boxesOf(node), chunk);
-    } else {
-      chunk.free.voxels.fill(~std::uint64_t{0});
-      const bool one_face = windows.size() == 1;
+  void searchChunk(const Node& node, const CubeWindows& windows, ScanIncrements& out) const {
+    FreeIncrements free{{}, countAt(windows)};
+    free.voxels.fill(~std::uint64_t{0});
+    const bool one_face = windows.size() == 1;
+    if (!one_face || !isAllInFront(*windows.begin())) {
+      const ChunkBoxes boxes = boxesOf(node);
       for (const CubeWindow& window : windows)
-        if (!one_face || !isAllInFront(window))
-          cube_.keepInFront(boxesOf(node), window.face, one_face, chunk.free.voxels);
+        cube_.keepInFront(boxes, window.face, one_face, free.voxels);
     }
-    if (isAny(chunk)) out.push_back(chunk);
-  }
-
-  /// Voxel by voxel, each at a level of its own.
-  void searchAroundSensor(const ChunkBoxes& boxes, FreeChunk& chunk) const {
-    for (int i = 0; i < kVoxelsPerChunk; ++i) {
-      const CubeWindows windows = cube_.grid().windowsOfCentre(boxes.box(i));
-      const bool is_free = windows.size() > 0 && std::all_of(windows.begin(), windows.end(),
-                                                             [&](const CubeWindow& window) {
-                                                               return cube_.isInFront(window);
-                                                             });
-      if (!is_free) continue;
-      const auto bit = static_cast<unsigned>(i);
-      chunk.free.voxels[bit >> 6U] |= std::uint64_t{1} << (bit & 63U);
-    }
-  }
-
-  static bool isAny(const FreeChunk& chunk) {
-    return std::any_of(chunk.free.voxels.begin(), chunk.free.voxels.end(),
-                       [](std::uint64_t word) { return word != 0; });
+    const bool any = std::any_of(free.voxels.begin(), free.voxels.end(),
+                                 [](std::uint64_t word) { return word != 0; });
+    if (any) out.push_back({{base_.x + node.x, base_.y + node.y, base_.z + node.z}, {}, free});
   }
 
   /// The word about the voxels of a chunk.
@@ -170,10 +147,11 @@ class FreeSpaceSearch {
       beams =
           std::max(beams, cube_.spacing(window.face, 0.5F * (window.nearest + window.farthest)));
     if (beams <= resolution_) return kFullWord;
-    return facetWeight(0.5F * (beams - resolution_));
+    return static_cast<std::uint32_t>(facetWeight(0.5F * (beams - resolution_)));
   }
 
   const DepthCube& cube_;
+  ChunkIndex base_;  ///< from which nodes are counted
   float resolution_;
   std::array<float, 3> sensor_{};  ///< from the base [voxels]
   int root_level_ = 0;
@@ -181,9 +159,9 @@ class FreeSpaceSearch {
 
 }  // namespace
 
-std::vector<FreeChunk> findFreeSpace(const ImageBeams& beams, const DepthCube& cube,
-                                     const Eigen::Vector3d& origin, const Options& options) {
-  return FreeSpaceSearch(beams, cube, origin, options).run(options.threads);
+ScanIncrements findFreeSpace(const ImageBeams& beams, const DepthCube& cube,
+                             const Options& options) {
+  return FreeSpaceSearch(beams, cube, options).run(options.threads);
 }
 
 }  // namespace csom::detail

@@ -5,19 +5,10 @@
 #include <csom/core/CountIncrements.h>
 #include <csom/core/Options.h>
 
-#include <cstdint>
-#include <vector>
-
 #include "image/DepthCube.h"
 #include "image/ImageBeams.h"
 
 namespace csom::detail {
-
-/// The free voxels of a chunk.
-struct FreeChunk {
-  std::uint64_t key;  ///< see VoxelWords::keyOf()
-  FreeIncrements free;
-};
 
 /// A voxel is free if the cube of 0.8 of its edge around its centre lies in front of everything
 /// that was drawn in its directions.
@@ -26,8 +17,9 @@ struct FreeChunk {
 /// distance, so that one of them went through it; else 0.4/(1 + (g/1 m)²), where g is by how much
 /// half the distance of the beams exceeds half an edge: what facets say between hits.
 ///
-/// In any order. Voxels with surface are among them, if they are seen through: the caller knows.
-std::vector<FreeChunk> findFreeSpace(const ImageBeams& beams, const DepthCube& cube,
-                                     const Eigen::Vector3d& origin, const Options& options);
+/// In any order of chunks. Voxels with surface are among them, if they are seen through: the caller
+/// knows.
+ScanIncrements findFreeSpace(const ImageBeams& beams, const DepthCube& cube,
+                             const Options& options);
 
 }  // namespace csom::detail

@@ -7,7 +7,7 @@ namespace csom::detail {
 
 VoxelWords::Slot& VoxelWords::slotOf(std::uint64_t key) {
   const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ull) >> 32U) & mask;
+  std::size_t slot = mixedKey(key) & mask;
   while (slots_[slot].cells != nullptr && slots_[slot].key != key) slot = (slot + 1) & mask;
   return slots_[slot];
 }

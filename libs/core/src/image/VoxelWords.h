@@ -11,6 +11,8 @@
 #include <memory>
 #include <vector>
 
+#include "util/ChunkKey.h"
+
 namespace csom::detail {
 
 /// The word of a whole scan about a voxel in which a beam ended, however many did [quanta].
@@ -25,7 +27,7 @@ class VoxelWords {
   /// Cells of a chunk: 0, the weight and class of a facet, or where the hits are counted.
   using Cell = std::uint32_t;
   struct Cells {
-    std::uint64_t key;  ///< chunks in z-major order have ascending keys
+    std::uint64_t key;  ///< chunkKey() of the chunk, counted from the base
     std::array<Cell, kVoxelsPerChunk> cell;
   };
 
@@ -48,21 +50,7 @@ class VoxelWords {
   /// Appends the word about a voxel whose cell is not 0, by class.
   void appendWord(std::uint16_t voxel, Cell cell, std::vector<CountIncrement>& out) const;
 
-  static std::uint64_t keyOf(const ChunkIndex& from_base) {
-    const auto axis = [](std::int32_t i) { return static_cast<std::uint64_t>(i + kAxisOffset); };
-    return (axis(from_base.z) << (2 * kAxisBits)) | (axis(from_base.y) << kAxisBits) |
-           axis(from_base.x);
-  }
-  static ChunkIndex chunkOfKey(std::uint64_t key) {
-    const auto axis = [](std::uint64_t bits) {
-      return static_cast<std::int32_t>(bits & ((1U << kAxisBits) - 1)) - kAxisOffset;
-    };
-    return {axis(key), axis(key >> kAxisBits), axis(key >> (2 * kAxisBits))};
-  }
-
  private:
-  static constexpr int kAxisBits = 21;
-  static constexpr std::int32_t kAxisOffset = 1 << (kAxisBits - 1);
   static constexpr Cell kHits = 0x80000000U;
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
@@ -74,7 +62,7 @@ class VoxelWords {
   };
 
   Cell& cellAt(std::int32_t x, std::int32_t y, std::int32_t z) {
-    const std::uint64_t key = keyOf({chunkOf(x), chunkOf(y), chunkOf(z)});
+    const std::uint64_t key = chunkKey({chunkOf(x), chunkOf(y), chunkOf(z)});
     if (key != last_key_) {
       const Slot& recent = recent_[recentSlot(key)];
       if (recent.cells != nullptr && recent.key == key) {
@@ -97,7 +85,7 @@ class VoxelWords {
   /// Facets of a row pass through the same few chunks.
   static constexpr std::size_t kRecent = 64;
   static std::size_t recentSlot(std::uint64_t key) {
-    return (key + 5 * (key >> kAxisBits) + 11 * (key >> (2 * kAxisBits))) % kRecent;
+    return (key + 5 * (key >> kChunkKeyAxisBits) + 11 * (key >> (2 * kChunkKeyAxisBits))) % kRecent;
   }
   void select(std::uint64_t key);
   Slot& slotOf(std::uint64_t key);

@@ -160,16 +160,7 @@ ScanIncrements castFreeSpace(const PreparedScan& scan, const Options& options, S
           voxels += static_cast<std::size_t>(__builtin_popcountll(word));
         if (voxels == 0) return;
         report.free_voxels += voxels;
-        std::vector<CountIncrement> increments(voxels);
-        auto next = increments.begin();
-        for (std::size_t word = 0; word < bits.size(); ++word) {
-          for (std::uint64_t left = bits[word]; left != 0; left &= left - 1) {
-            const auto voxel = static_cast<std::uint16_t>(
-                word * 64 + static_cast<std::size_t>(__builtin_ctzll(left)));
-            *next++ = {voxel, kFreeClass, count};
-          }
-        }
-        out.push_back({coder.chunk(chunk), std::move(increments)});
+        out.push_back({coder.chunk(chunk), {}, {bits, count}});
       });
   return out;
 }

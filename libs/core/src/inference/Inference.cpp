@@ -16,7 +16,7 @@ const MethodEntry& entryOf(Method method) {
 
 ScanIncrements inferIncrements(const PreparedScan& scan, const Options& options,
                                ScanReport& report) {
-  if (scan.blocks.empty() && scan.image.points.empty()) return {};
+  if (scan.blocks.empty() && scan.image_points.points.empty()) return {};
   ScanIncrements increments = entryOf(options.method).infer(scan, options, report);
   increments.erase(std::remove_if(increments.begin(), increments.end(),
                                   [](const ChunkIncrements& chunk) { return chunk.empty(); }),

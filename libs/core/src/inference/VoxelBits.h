@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "util/ChunkKey.h"
+
 namespace csom::detail {
 
 /// A voxel of a box as one integer: indexInChunk() in the lowest bits, above them the number of its
@@ -116,7 +118,7 @@ class VoxelBits {
   }
   std::size_t hashedSlotOf(VoxelCode chunk) const {
     const std::size_t mask = slots_.size() - 1;
-    std::size_t slot = static_cast<std::size_t>((chunk * 0x9E3779B97F4A7C15ull) >> 32U) & mask;
+    std::size_t slot = mixedKey(chunk) & mask;
     while (slots_[slot] != kEmpty && chunks_[slots_[slot]].first != chunk) slot = (slot + 1) & mask;
     return slot;
   }

@@ -49,11 +49,14 @@ void checkImage(const Scan& scan) {
                                 std::to_string(image.columns_of_turn) +
                                 "; they are at least 1 and at least 0");
   if (image.columns_of_turn == 0) return;
-  for (const RangeImage::Pixel& pixel : image.pixels)
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const RangeImage::Pixel& pixel = image.pixels[i];
     if (pixel.row != RangeImage::kNoRow &&
         (pixel.column < 0 || pixel.column >= image.columns_of_turn))
-      throw std::invalid_argument("image of a scan: column " + std::to_string(pixel.column) +
-                                  " of a turn of " + std::to_string(image.columns_of_turn));
+      throw std::invalid_argument("image of a scan: point " + std::to_string(i) + " has column " +
+                                  std::to_string(pixel.column) + "; a turn has columns 0 to " +
+                                  std::to_string(image.columns_of_turn - 1));
+  }
 }
 
 void checkSizes(const Scan& scan, int classes) {
@@ -131,11 +134,11 @@ class Preparation {
     PointSet accepted = accept();
     report_.training_points += accepted.points.size();
     if (options_.free_space.mode == FreeSpace::Raycast) recordBeams(accepted);
-    out_.image.image = scan_.image;
-    out_.image.image.pixels = std::move(accepted.pixels);
-    out_.image.points = std::move(accepted.points);
-    out_.image.labels = std::move(accepted.labels);
-    out_.image.scores = std::move(accepted.scores);
+    out_.image_points.image = {std::move(accepted.pixels), scan_.image.column_step,
+                               scan_.image.columns_of_turn};
+    out_.image_points.points = std::move(accepted.points);
+    out_.image_points.labels = std::move(accepted.labels);
+    out_.image_points.scores = std::move(accepted.scores);
   }
 
   Eigen::Vector3d inMap(const Eigen::Vector3f& point) const {

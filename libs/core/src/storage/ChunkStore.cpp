@@ -4,35 +4,26 @@
 #include <algorithm>
 
 #include "storage/ChunkBuilder.h"
+#include "util/ChunkKey.h"
 #include "util/Parallel.h"
 
 namespace csom {
 
 namespace {
 constexpr std::uint64_t kEmptyKey = ~std::uint64_t{0};
-constexpr int kAxisBits = 21;
-constexpr std::int32_t kAxisOffset = 1 << (kAxisBits - 1);
-constexpr std::uint64_t kAxisMask = (std::uint64_t{1} << kAxisBits) - 1;
 }  // namespace
 
 std::uint64_t ChunkStore::keyOf(const ChunkIndex& index) {
-  const auto axis = [](std::int32_t i) {
-    return static_cast<std::uint64_t>(i + kAxisOffset) & kAxisMask;
-  };
-  return (axis(index.z) << (2 * kAxisBits)) | (axis(index.y) << kAxisBits) | axis(index.x);
+  return detail::chunkKey(index);
 }
 
 ChunkIndex ChunkStore::indexOf(std::uint64_t key) {
-  const auto axis = [](std::uint64_t bits) {
-    return static_cast<std::int32_t>(bits & kAxisMask) - kAxisOffset;
-  };
-  return {axis(key), axis(key >> kAxisBits), axis(key >> (2 * kAxisBits))};
+  return detail::chunkOfKey(key);
 }
 
 std::size_t ChunkStore::slotOf(std::uint64_t key) const {
-  // Multiplicative hashing: the high bits of key·2^64/φ are well mixed.
   const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ull) >> 32U) & mask;
+  std::size_t slot = detail::mixedKey(key) & mask;
   while (slots_[slot].key != key && slots_[slot].key != kEmptyKey) slot = (slot + 1) & mask;
   return slot;
 }

@@ -257,7 +257,7 @@ class SurfaceInference {
 
 ScanIncrements inferSurfaceCsom(const PreparedScan& scan, const Options& options,
                                 ScanReport& report) {
-  if (!scan.image.image.empty()) return inferFromImage(scan, options, report);
+  if (!scan.image_points.image.empty()) return inferFromImage(scan, options, report);
   return SurfaceInference(scan, options).run(report);
 }
 

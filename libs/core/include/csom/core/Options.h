@@ -234,6 +234,7 @@ struct Options {
     return kernel.length_max > 0 ? kernel.length_max : 5 * resolution;
   }
   double kernelLengthFixed() const { return kernel.length > 0 ? kernel.length : 3 * resolution; }
+  /// Projective free space is that of rays where a scan has no image.
   bool castsRays() const {
     return free_space.mode == FreeSpace::Raycast || free_space.mode == FreeSpace::Projective;
   }

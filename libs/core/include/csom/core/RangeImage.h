@@ -16,7 +16,9 @@ namespace csom {
 /// knows them (hundredths of a degree, or pixels): what has the same column in two rows lies side
 /// by side. The first row may be at the top or at the bottom, columns may run to either side.
 ///
-/// Beams that returned nothing have no point; their pixels are empty.
+/// Beams that returned nothing have no point; their pixels are empty. prepareScan() refuses an
+/// image with another number of pixels than points, a column step below 1 or a column outside its
+/// turn.
 struct RangeImage {
   /// Where a point lies. A row of kNoRow: nowhere. If several points name the same pixel, the
   /// first one has it. Points without a pixel count as hits, but nothing lies next to them.
@@ -32,8 +34,8 @@ struct RangeImage {
 
   std::vector<Pixel> pixels;     ///< one a point; empty: the scan has no image
   std::int32_t column_step = 1;  ///< between adjacent beams of a row, at least 1
-  /// Columns of a full turn: the last ones lie beside the first ones. All columns are from 0 to
-  /// this. 0: the image has a left and a right border.
+  /// Columns of a full turn: the last ones lie beside the first ones, and all are from 0 to one
+  /// less than this. 0: the image has a left and a right border.
   std::int32_t columns_of_turn = 0;
 
   bool empty() const { return pixels.empty(); }

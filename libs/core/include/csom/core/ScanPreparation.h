@@ -46,15 +46,15 @@ struct PreparedScan {
 
   /// Of a scan with an image, for methods that look at it: these points, neither down-sampled nor
   /// in blocks, instead of those above.
-  ImagePoints image;
+  ImagePoints image_points;
 };
 
 /// How far a scan may reach from its origin along each axis [m].
 double scanReach(const Options& options);
 
 /// Steps 0 to 3 of docs/algorithm.md. Bad points are counted in `report`, never thrown for; throws
-/// std::invalid_argument if labels or scores do not match the points, or if there are more than
-/// 2^27 free samples.
+/// std::invalid_argument if labels, scores or the pixels of an image do not match the points, if
+/// the image is none (see RangeImage.h), or if there are more than 2^27 free samples.
 ///
 /// A scan may reach almost 2^20 voxels (and down-sampling cells) from its origin along each axis;
 /// points beyond are rejected as OutsideIndexRange. With free space, points farther than 8192 steps

@@ -29,7 +29,7 @@ struct ScanReport {
   std::array<std::size_t, kRejectReasons> rejected{};  ///< by RejectReason
   std::size_t training_points = 0;                     ///< hits left after down-sampling
   std::size_t free_points = 0;                         ///< free samples left after down-sampling
-  std::size_t free_voxels = 0;                         ///< voxels crossed by beams (raycast)
+  std::size_t free_voxels = 0;  ///< voxels that beams make free (raycast, projective)
   std::size_t blocks_observed = 0;
   std::size_t blocks_filled = 0;   ///< blocks with f_J = 1
   std::size_t voxels_updated = 0;  ///< voxels that received kernel mass

@@ -45,8 +45,8 @@ class SemanticMap {
   const Grid& grid() const { return grid_; }
 
   /// Adds one scan. Bad points are rejected and counted, never thrown for. Throws
-  /// std::invalid_argument, and leaves the map as it was, if labels or scores do not match the
-  /// points or free samples are too many (see ScanPreparation.h).
+  /// std::invalid_argument, and leaves the map as it was, if labels, scores or the image do not
+  /// match the points or free samples are too many (see ScanPreparation.h).
   ScanReport insert(const Scan& scan);
 
   /// Adds another map of the same resolution, classes and prior, exactly: merge(a,b) holds the same
