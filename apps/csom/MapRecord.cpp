@@ -65,6 +65,7 @@ RunRecord makeRecord(const MappingRequest& request, const MappingResult& result,
   record.unused = statistics.unused;
   record.labels = statistics.labels;
   record.no_returns = statistics.no_returns;
+  record.images = statistics.images;
   for (const auto& [what, count] : result.refused)
     record.refused.push_back({what.first, what.second, count});
   record.camera_labels = result.map->cameraStatistics();

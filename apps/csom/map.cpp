@@ -85,6 +85,8 @@ void printSummary(const RunRecord& record, const MapFigures& figures, const Outp
                 formatCount(record.labels.keptUnlabelled(), "point").c_str());
   if (record.no_returns > 0)
     std::printf("no return %s hit nothing\n", formatCount(record.no_returns, "beam").c_str());
+  if (const std::string images = describeImages(record.images); !images.empty())
+    std::printf("beams     %s\n", images.c_str());
   if (const auto& cameras = record.camera_labels)
     std::printf(
         "cameras   %s labelled; %s outside of their view, %s hidden or at an edge%s\n",

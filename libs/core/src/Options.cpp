@@ -26,6 +26,9 @@ void Options::validate() const {
   if (free_space.mode == FreeSpace::Sampled)
     detail::requireInRange({"free_resolution", "m", "", {resolution / 64, kAnyLength.max}},
                            free_space.resolution);
+  if (free_space.no_return && scan.max_range <= 0)
+    rejectOption("free_no_return", toString(free_space.no_return),
+                 "false, or a max_range up to which these beams are free");
   if (see_csom.context_neighbours != 6 && see_csom.context_neighbours != 18 &&
       see_csom.context_neighbours != 26)
     rejectOption("context_neighbours", toString(see_csom.context_neighbours), "6, 18 or 26");
@@ -37,6 +40,10 @@ void Options::validate() const {
   if (kernelLengthMax() < kernelLengthMin())
     rejectOption("kernel_length_max", toString(kernelLengthMax()),
                  "at least kernel_length_min = " + toString(kernelLengthMin()));
+}
+
+bool Options::usesImages() const {
+  return detail::entryOf(method).uses_image && free_space.mode != FreeSpace::Sampled;
 }
 
 bool setOption(Options& options, const std::string& key, const std::string& text) {

@@ -57,6 +57,20 @@ std::string addCounts(const std::string& noted, const std::string& more) {
   return listOf(*sum);
 }
 
+void count(ScanImageCounts& counts, ImageOrigin origin) {
+  switch (origin) {
+    case ImageOrigin::Sensor:
+      ++counts.of_sensor;
+      break;
+    case ImageOrigin::Search:
+      ++counts.found;
+      break;
+    case ImageOrigin::None:
+      ++counts.none;
+      break;
+  }
+}
+
 /// What a file says of the points and observations that are not in the map.
 std::map<std::string, std::string> describe(const InsertionStatistics& statistics,
                                             const std::optional<CameraStatistics>& cameras) {
@@ -71,6 +85,9 @@ std::map<std::string, std::string> describe(const InsertionStatistics& statistic
   note("points_with_ignored_label_dropped", statistics.labels.ignored);
   note("points_with_several_labels_dropped", statistics.labels.ambiguous);
   note("beams_without_return", statistics.no_returns);
+  note("scans_with_image_of_sensor", statistics.images.of_sensor);
+  note("scans_with_image_found", statistics.images.found);
+  note("scans_without_image", statistics.images.none);
   note("observations_without_usable_points", statistics.without_points);
   if (!statistics.not_taken.empty()) meta["observations_not_taken"] = listOf(statistics.not_taken);
   if (!statistics.damaged.empty()) meta["observations_damaged"] = listOf(statistics.damaged);
@@ -233,6 +250,7 @@ bool CSemanticContinuousMap::internal_insertObservation(
   bool kept = false;
   try {
     const Eigen::Isometry3d pose = roundedPose(robot_pose.value_or(mrpt::poses::CPose3D()));
+    adapter().setBeamRequest(beamRequest());
     const auto adapted = adapter().adapt(observation, pose, rules);
     if (!adapted) {
       last_insertion_.outcome = LastInsertion::Outcome::NotTaken;
@@ -275,6 +293,11 @@ ObservationAdapter& CSemanticContinuousMap::adapter() {
   return *adapter_;
 }
 
+BeamRequest CSemanticContinuousMap::beamRequest() const {
+  const Options& options = map_.options();
+  return {options.usesImages(), options.free_space.no_return ? options.scan.max_range : 0};
+}
+
 void CSemanticContinuousMap::openLabelSources() {
   adapter().loadNetworks();
 }
@@ -291,7 +314,9 @@ void CSemanticContinuousMap::setLabelledScanObserver(LabelledScanObserver observ
 
 void CSemanticContinuousMap::flush() {
   last_insertion_ = {};
-  if (adapter_) insertScans(adapter_->flush());
+  if (!adapter_) return;
+  adapter_->setBeamRequest(beamRequest());
+  insertScans(adapter_->flush());
 }
 
 std::optional<CameraStatistics> CSemanticContinuousMap::cameraStatistics() const {
@@ -308,6 +333,7 @@ bool CSemanticContinuousMap::insertScans(const std::vector<AdaptedScan>& adapted
 bool CSemanticContinuousMap::insertScan(const AdaptedScan& adapted) {
   addStatistics(statistics_.labels, adapted.labels);
   statistics_.no_returns += adapted.no_returns;
+  if (map_.options().usesImages()) count(statistics_.images, adapted.image_origin);
   ScanReport report = map_.insert(adapted.scan);
   if (report.points == report.rejectedTotal()) {
     ++statistics_.without_points;

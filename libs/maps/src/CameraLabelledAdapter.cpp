@@ -109,10 +109,11 @@ std::optional<std::vector<AdaptedScan>> CameraLabelledAdapter::adapt(
     const bool self = labelsItself(observation.sensorLabel);
     scan.points =
         extractor->extract(observation, self ? rules : rules.withSource(PointLabels::None));
+    searchForImage(beamRequest(), scan.points);
     scan.sensor_label = observation.sensorLabel;
     scan.observation_class = observationName(observation);
     if (self || labelsItself(scan.points, rules)) {
-      AdaptedScan adapted = makeScan(scan.points, robot_pose, rules);
+      AdaptedScan adapted = makeScan(scan.points, robot_pose, rules, beamRequest());
       adapted.timestamp = secondsSince1970(observation);
       adapted.sensor_label = scan.sensor_label;
       adapted.observation_class = scan.observation_class;
@@ -315,8 +316,8 @@ void CameraLabelledAdapter::finish(const WaitingScan& scan) {
     ++statistics_.scans.labelled;
   }
   statistics_.points.add(labelled.counts());
-  finished_.push_back(
-      scanOf(scan, labelled, number_of_classes_, unlabelled_, statistics_.points.kept_unlabelled));
+  finished_.push_back(scanOf(scan, labelled, number_of_classes_, unlabelled_,
+                             beamRequest().free_range, statistics_.points.kept_unlabelled));
 
   if (!observer_ || images.empty()) return;
   LabelledScan seen{scan.points.points, labelled, {}};

@@ -106,13 +106,78 @@ StreamedImage readStreamedImage(ByteReader& in) {
   return image;
 }
 
+void write(ByteWriter& out, const RangeImage& image) {
+  out.number(image.column_step);
+  out.number(image.columns_of_turn);
+  out.number(static_cast<std::uint64_t>(image.pixels.size()));
+  for (const RangeImage::Pixel& pixel : image.pixels) {
+    out.number(pixel.row);
+    out.number(pixel.column);
+  }
+}
+
+RangeImage readImage(ByteReader& in) {
+  RangeImage image;
+  image.column_step = in.number<std::int32_t>();
+  image.columns_of_turn = in.number<std::int32_t>();
+  image.pixels.resize(in.count(sizeof(std::uint16_t) + sizeof(std::int32_t)));
+  for (RangeImage::Pixel& pixel : image.pixels) {
+    pixel.row = in.number<std::uint16_t>();
+    pixel.column = in.number<std::int32_t>();
+  }
+  return image;
+}
+
+void write(ByteWriter& out, const std::vector<EmptyBeam>& beams) {
+  out.number(static_cast<std::uint64_t>(beams.size()));
+  for (const EmptyBeam& beam : beams) {
+    for (const float coordinate : beam.farthest) out.number(coordinate);
+    out.number(beam.pixel.row);
+    out.number(beam.pixel.column);
+  }
+}
+
+std::vector<EmptyBeam> readEmptyBeams(ByteReader& in) {
+  std::vector<EmptyBeam> beams(
+      in.count(3 * sizeof(float) + sizeof(std::uint16_t) + sizeof(std::int32_t)));
+  for (EmptyBeam& beam : beams) {
+    for (float& coordinate : beam.farthest) coordinate = in.number<float>();
+    beam.pixel.row = in.number<std::uint16_t>();
+    beam.pixel.column = in.number<std::int32_t>();
+  }
+  return beams;
+}
+
+void write(ByteWriter& out, const SensorPoints& points) {
+  writeVector(out, points.points);
+  out.number(static_cast<std::uint64_t>(points.no_returns));
+  out.number(static_cast<std::uint8_t>(points.image_origin));
+  write(out, points.image);
+  write(out, points.empty_beams);
+}
+
+SensorPoints readPoints(ByteReader& in, std::uint8_t version) {
+  SensorPoints points;
+  points.points = readVector<Eigen::Vector3f>(in);
+  if (version >= 4) points.no_returns = in.number<std::uint64_t>();
+  if (version < 6) return points;
+  const auto origin = in.number<std::uint8_t>();
+  if (origin > static_cast<std::uint8_t>(ImageOrigin::Search))
+    throw std::runtime_error("serialised map: image origin " + std::to_string(origin));
+  points.image_origin = static_cast<ImageOrigin>(origin);
+  points.image = readImage(in);
+  if (!points.image.empty() && points.image.pixels.size() != points.points.size())
+    throw std::runtime_error("serialised map: an image of another size than its scan");
+  points.empty_beams = readEmptyBeams(in);
+  return points;
+}
+
 void write(ByteWriter& out, const WaitingScan& scan) {
   out.number(scan.time);
   out.number(static_cast<std::uint8_t>(scan.late));
   out.text(scan.sensor_label);
   out.text(scan.observation_class);
-  writeVector(out, scan.points.points);
-  out.number(static_cast<std::uint64_t>(scan.points.no_returns));
+  write(out, scan.points);
   write(out, scan.sensor_in_map);
 }
 
@@ -122,8 +187,7 @@ WaitingScan readWaitingScan(ByteReader& in, std::uint8_t version) {
   scan.late = in.flag();
   scan.sensor_label = in.text();
   scan.observation_class = in.text();
-  scan.points.points = readVector<Eigen::Vector3f>(in);
-  if (version >= 4) scan.points.no_returns = in.number<std::uint64_t>();
+  scan.points = readPoints(in, version);
   scan.sensor_in_map = readPose(in);
   return scan;
 }

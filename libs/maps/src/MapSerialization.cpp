@@ -19,7 +19,7 @@ namespace {
 
 /// 1: labels from cameras. 2: options of the likelihood by name. 3: those of views by name. 4:
 /// beams without a return, points of unknown labels that were kept. 5: statistics by name.
-constexpr std::uint8_t kVersion = 5;
+constexpr std::uint8_t kVersion = 6;
 
 using Texts = std::map<std::string, std::string>;
 
@@ -149,6 +149,7 @@ void write(ByteWriter& out, const InsertionStatistics& statistics) {
   out.named(statistics.why_damaged);
   writeStatistics(out, statistics.labels);
   out.number(static_cast<std::uint64_t>(statistics.no_returns));
+  writeStatistics(out, statistics.images);
   write(out, statistics.unused);
 }
 
@@ -161,6 +162,7 @@ InsertionStatistics readInsertionStatistics(ByteReader& in, std::uint8_t version
   statistics.why_damaged = in.named<std::string>();
   statistics.labels = readLabelCounts(in, version);
   if (version >= 4) statistics.no_returns = in.number<std::uint64_t>();
+  if (version >= 6) readStatistics(in, statistics.images);
   statistics.unused = readReport(in);
   return statistics;
 }

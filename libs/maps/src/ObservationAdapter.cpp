@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From observations to semantic points.
+#include <csom/core/FindRangeImage.h>
 #include <csom/maps/ObservationAdapter.h>
 #include <csom/maps/PoseRounding.h>
 
+#include "ImageOfKept.h"
 #include "ObservationName.h"
 
 namespace csom {
@@ -48,7 +50,7 @@ double secondsSince1970(const mrpt::obs::CObservation& observation) {
 }
 
 AdaptedScan makeScan(const SensorPoints& points, const Eigen::Isometry3d& robot_pose,
-                     const LabelRules& rules) {
+                     const LabelRules& rules, const BeamRequest& request) {
   const Eigen::Isometry3d sensor = sensorPoseInMap(robot_pose, points.sensor_pose);
   const Eigen::Matrix3d rotation = sensor.linear();
   AdaptedScan out;
@@ -56,14 +58,27 @@ AdaptedScan makeScan(const SensorPoints& points, const Eigen::Isometry3d& robot_
   out.no_returns = points.no_returns;
   out.scan.points.reserve(points.points.size());
   out.scan.labels.reserve(points.points.size());
+  ImageOfKept image(points, out);
   for (std::size_t i = 0; i < points.points.size(); ++i) {
     const std::optional<ClassId> id = classOf(points.labels[i], rules, out.labels);
     if (!id) continue;
     const Eigen::Vector3d rotated = rotation * points.points[i].cast<double>();
     out.scan.points.push_back(rotated.cast<float>());
     out.scan.labels.push_back(*id);
+    image.keep(i);
   }
+  image.keepEmpty(rotation, request.free_range, [&] { out.scan.labels.push_back(kFreeClass); });
   return out;
+}
+
+void searchForImage(const BeamRequest& request, SensorPoints& points) {
+  if (points.image_origin != ImageOrigin::Search) return;
+  std::optional<RangeImage> found;
+  if (request.images) found = findRangeImage(points.points);
+  if (found)
+    points.image = *std::move(found);
+  else
+    points.image_origin = ImageOrigin::None;
 }
 
 std::optional<std::vector<AdaptedScan>> SelfLabelledAdapter::adapt(
@@ -71,7 +86,9 @@ std::optional<std::vector<AdaptedScan>> SelfLabelledAdapter::adapt(
     const LabelRules& rules) {
   const PointExtractor* extractor = findPointExtractor(observation);
   if (extractor == nullptr) return std::nullopt;
-  AdaptedScan adapted = makeScan(extractor->extract(observation, rules), robot_pose, rules);
+  SensorPoints points = extractor->extract(observation, rules);
+  searchForImage(beamRequest(), points);
+  AdaptedScan adapted = makeScan(points, robot_pose, rules, beamRequest());
   adapted.timestamp = secondsSince1970(observation);
   adapted.sensor_label = observation.sensorLabel;
   adapted.observation_class = observationName(observation);
@@ -81,7 +98,7 @@ std::optional<std::vector<AdaptedScan>> SelfLabelledAdapter::adapt(
 }
 
 std::unique_ptr<ObservationAdapter> SelfLabelledAdapter::clone() const {
-  return std::make_unique<SelfLabelledAdapter>();
+  return std::make_unique<SelfLabelledAdapter>(*this);
 }
 
 void SelfLabelledAdapter::writeTo(ByteWriter& /*out*/) const {}

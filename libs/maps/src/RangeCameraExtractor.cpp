@@ -157,9 +157,17 @@ class RangeCameraExtractor : public PointExtractor {
       throw std::runtime_error("its points have coordinates of unequal number");
     const std::vector<PointLabel> labels =
         scan.pixelLabels ? labelsOf(scan, rules) : std::vector<PointLabel>(count);
+    const bool has_image =
+        scan.points3D_idxs_x.size() == count && scan.points3D_idxs_y.size() == count;
+    if (has_image) out.image_origin = ImageOrigin::Sensor;
     out.reserve(count);
-    for (std::size_t i = 0; i < count; ++i)
-      out.add({scan.points3D_x[i], scan.points3D_y[i], scan.points3D_z[i]}, labels[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3f point(scan.points3D_x[i], scan.points3D_y[i], scan.points3D_z[i]);
+      if (has_image)
+        out.add(point, labels[i], {scan.points3D_idxs_y[i], scan.points3D_idxs_x[i]});
+      else
+        out.add(point, labels[i]);
+    }
     return out;
   }
 

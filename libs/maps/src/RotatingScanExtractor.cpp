@@ -3,8 +3,10 @@
 #include <mrpt/obs/CObservationRotatingScan.h>
 #include <mrpt/obs/VelodyneCalibration.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -63,19 +65,50 @@ bool columnsEmptyFrom(const CObservationRotatingScan& scan, int first) {
   return true;
 }
 
+/// The number of each row of the observation in the order of elevations.
+std::vector<std::uint16_t> orderOf(const std::vector<Elevation>& elevations) {
+  std::vector<std::size_t> by_elevation(elevations.size());
+  std::iota(by_elevation.begin(), by_elevation.end(), std::size_t{0});
+  std::stable_sort(by_elevation.begin(), by_elevation.end(), [&](std::size_t a, std::size_t b) {
+    return elevations[a].sine < elevations[b].sine;
+  });
+  std::vector<std::uint16_t> order(elevations.size());
+  for (std::size_t i = 0; i < by_elevation.size(); ++i)
+    order[by_elevation[i]] = static_cast<std::uint16_t>(i);
+  return order;
+}
+
 /// Azimuth of a column, counter-clockwise from the sensor's forward direction.
 struct Azimuths {
   double start = 0;
   double step = 0;
+
+  /// Columns of a full turn; 0 if `columns` of them are less than one, or more.
+  std::int32_t columnsOfTurn(int columns) const {
+    constexpr double kTurn = 2 * 3.14159265358979323846;
+    const double turn = kTurn / std::abs(step);
+    const bool is_turn = std::abs(turn - std::round(turn)) < 0.1 && std::abs(turn - columns) < 1.5;
+    return is_turn ? std::max(columns, static_cast<int>(std::lround(turn))) : 0;
+  }
 };
 
-Azimuths computeAzimuths(const CObservationRotatingScan& scan) {
+/// Whether fromVelodyne() of MRPT has made the scan: it counts one column for each laser, of which
+/// it fills the first 1/rows, and writes clockwise azimuths although they are defined
+/// counter-clockwise.
+bool isFromVelodyne(const CObservationRotatingScan& scan) {
+  const int firings = static_cast<int>(scan.rangeImage.cols()) / scan.rowCount;
+  return isVelodyne(scan) && firings > 0 && columnsEmptyFrom(scan, firings);
+}
+
+/// Those in which something may have been measured.
+int measuredColumns(const CObservationRotatingScan& scan) {
   const int columns = static_cast<int>(scan.rangeImage.cols());
-  // MRPT's fromVelodyne() counts one column for each laser, of which it fills the first
-  // 1/rows, and writes clockwise azimuths although they are defined counter-clockwise.
-  const int firings = columns / scan.rowCount;
-  if (isVelodyne(scan) && firings > 0 && columnsEmptyFrom(scan, firings))
-    return {-scan.startAzimuth, -scan.azimuthSpan / firings};
+  return isFromVelodyne(scan) ? columns / scan.rowCount : columns;
+}
+
+Azimuths computeAzimuths(const CObservationRotatingScan& scan) {
+  const int columns = measuredColumns(scan);
+  if (isFromVelodyne(scan)) return {-scan.startAzimuth, -scan.azimuthSpan / columns};
   return {scan.startAzimuth, columns > 1 ? scan.azimuthSpan / (columns - 1) : 0.0};
 }
 
@@ -105,23 +138,39 @@ class RotatingScanExtractor : public PointExtractor {
     out.sensor_pose = scan.sensorPose;
     if (rows == 0 || columns == 0) return out;
     const std::vector<Elevation> elevations = computeElevations(scan);
+    const std::vector<std::uint16_t> order = orderOf(elevations);
     const Azimuths azimuths = computeAzimuths(scan);
-    for (int column = 0; column < columns; ++column) {
+    // A single row says nothing about what is above and below it.
+    const bool has_image = rows > 1;
+    if (has_image) {
+      out.image_origin = ImageOrigin::Sensor;
+      out.image.columns_of_turn = azimuths.columnsOfTurn(measuredColumns(scan));
+    }
+    // What fromVelodyne() leaves empty is no beam.
+    for (int column = 0; column < measuredColumns(scan); ++column) {
       const double azimuth = azimuths.start + azimuths.step * column;
       const Eigen::Vector2d direction(std::cos(azimuth), std::sin(azimuth));
       for (int row = 0; row < rows; ++row) {
         const std::uint16_t steps = scan.rangeImage(row, column);
         const double range = steps * scan.rangeResolution;
+        const Elevation& elevation = elevations[static_cast<std::size_t>(row)];
+        const Eigen::Vector3d beam(elevation.cosine * direction.x(),
+                                   elevation.cosine * direction.y(), elevation.sine);
+        const RangeImage::Pixel pixel{order[static_cast<std::size_t>(row)], column};
         if (steps == 0 || steps == kSaturatedRange || !(range > 0) || range > scan.maxRange) {
-          ++out.no_returns;
+          if (has_image)
+            out.addEmpty({(scan.maxRange * beam).cast<float>(), pixel});
+          else
+            ++out.no_returns;
           continue;
         }
-        const Elevation& elevation = elevations[static_cast<std::size_t>(row)];
-        const Eigen::Vector3d point(range * elevation.cosine * direction.x(),
-                                    range * elevation.cosine * direction.y(),
-                                    range * elevation.sine);
-        out.add(point.cast<float>(),
-                labelled ? rules.fromRaw(scan.intensityImage(row, column)) : PointLabel{});
+        const Eigen::Vector3f point = (range * beam).cast<float>();
+        const PointLabel label =
+            labelled ? rules.fromRaw(scan.intensityImage(row, column)) : PointLabel{};
+        if (has_image)
+          out.add(point, label, pixel);
+        else
+          out.add(point, label);
       }
     }
     return out;

@@ -22,8 +22,9 @@ struct WaitingScan {
 
 /// The scan with the labels that its points have received. Points that no camera sees, or not
 /// properly, become `unlabelled` unless that is kFreeClass, and are counted in `kept_unlabelled`;
-/// all other points without a label are left out.
+/// all other points without a label are left out. `free_range`: as in BeamRequest.
 AdaptedScan scanOf(const WaitingScan& waiting, const LabelledPoints& labelled,
-                   int number_of_classes, ClassId unlabelled, std::size_t& kept_unlabelled);
+                   int number_of_classes, ClassId unlabelled, double free_range,
+                   std::size_t& kept_unlabelled);
 
 }  // namespace csom

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The run record and its JSON text.
 #include <csom/report/ClassesJson.h>
+#include <csom/report/Format.h>
 #include <csom/report/RunRecord.h>
 
 #include <cmath>
@@ -218,6 +219,17 @@ std::size_t pointsRejected(const RunRecord& record) {
          (record.camera_labels ? record.camera_labels->points.rejected() : 0);
 }
 
+std::string describeImages(const ScanImageCounts& images) {
+  std::string text;
+  const auto add = [&](std::size_t count, const char* how) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + formatCount(count, "scan") + " " + how;
+  };
+  add(images.of_sensor, "with the range image of the sensor");
+  add(images.found, "with rows found in the points");
+  add(images.none, "without rows: neighbours in space");
+  return text;
+}
+
 std::optional<double> addedShare(const RunRecord& record) {
   const double network = record.camera_labels ? record.camera_labels->seconds.network : 0;
   if (!(network > 0)) return std::nullopt;
@@ -241,6 +253,7 @@ std::string toJson(const RunRecord& record, const MapFigures& figures) {
                {"totals", totalsJson(record)},
                {"unused", reportJson(record.unused)},
                {"labels", statisticsToJson(record.labels)},
+               {"scan_images", statisticsToJson(record.images)},
                {"refused", refusedJson(record.refused)},
                {"warnings", record.warnings},
                {"timing_ms", timingJson(record)}};

@@ -142,6 +142,9 @@ RunRecord readRecord(const JsonFields& run, const MapDocument& document) {
   record.unused = readReport(run.object("unused"));
   record.labels = statisticsFromJson<LabelCounts>(run.object("labels"));
   record.no_returns = run.object("totals").count("no_returns");
+  // Files of version 0.1 do not have it.
+  if (run.has("scan_images"))
+    record.images = statisticsFromJson<ScanImageCounts>(run.object("scan_images"));
   return record;
 }
 

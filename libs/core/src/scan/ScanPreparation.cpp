@@ -126,8 +126,7 @@ class Preparation {
 
  private:
   bool usesImage() const {
-    return !scan_.image.empty() && detail::entryOf(options_.method).uses_image &&
-           options_.free_space.mode != FreeSpace::Sampled;
+    return !scan_.image.empty() && options_.usesImages();
   }
 
   void takeImage() {

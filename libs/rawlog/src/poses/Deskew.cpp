@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A LiDAR that is carried along while it turns sees each direction from another place.
+#include <csom/maps/VelodynePackets.h>
 #include <csom/rawlog/Deskew.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <exception>
+#include <vector>
 
 #include "logs/MrptText.h"
 #include "poses/EigenPose.h"
@@ -17,21 +19,11 @@ using mrpt::obs::CObservationVelodyneScan;
 
 /// The times of a scan's packets.
 struct Sweep {
-  double start = 0;        ///< [s since 1970]
-  double half_packet = 0;  ///< [s] from a packet's time to its middle
-  double last_packet = 0;  ///< [s] from the start
-  double end() const { return start + last_packet + half_packet; }
+  double start = 0;          ///< [s since 1970]
+  double last_packet = 0;    ///< [s] from the start
+  double packet_length = 0;  ///< [s]
+  double end() const { return start + last_packet + packet_length; }
 };
-
-/// What packet.gps_timestamp() should return: that one binds a reference to a number that lies at
-/// no multiple of four bytes.
-std::uint32_t timeOf(const CObservationVelodyneScan::TVelodyneRawPacket& packet) {
-  static_assert(sizeof packet == sizeof packet.blocks + sizeof(std::uint32_t) + 2);
-  std::uint32_t time;
-  std::memcpy(&time, reinterpret_cast<const std::uint8_t*>(&packet) + sizeof packet.blocks,
-              sizeof time);
-  return time;
-}
 
 /// Nothing if there is no time stamp, or no packet.
 std::optional<Sweep> findSweep(const CObservationVelodyneScan& scan) {
@@ -48,17 +40,20 @@ std::optional<Sweep> findSweep(const CObservationVelodyneScan& scan) {
     sweep.last_packet = std::max(sweep.last_packet, 1e-6 * elapsed);
   }
   if (scan.scan_packets.size() > 1)
-    sweep.half_packet =
-        sweep.last_packet / (2.0 * static_cast<double>(scan.scan_packets.size() - 1));
+    sweep.packet_length = sweep.last_packet / static_cast<double>(scan.scan_packets.size() - 1);
   return sweep;
 }
 
 /// Moves points to where the sensor would have seen them at the start of the sweep.
-class MovedPoints : public CObservationVelodyneScan::PointCloudStorageWrapper {
+class MovedPoints {
  public:
   MovedPoints(const CObservationVelodyneScan& scan, const Sweep& sweep, const RobotMotion& motion,
               CObservationVelodyneScan::TPointCloud& out)
-      : sweep_(sweep), motion_(motion), mount_(detail::toEigen(scan.sensorPose)), out_(out) {
+      : sweep_(sweep),
+        motion_(motion),
+        mount_(detail::toEigen(scan.sensorPose)),
+        max_range_(scan.maxRange),
+        out_(out) {
     const auto start = sensorAt(sweep.start);
     complete_ = start && sensorAt(sweep.end());
     if (start) start_from_map_ = start->inverse();
@@ -67,27 +62,34 @@ class MovedPoints : public CObservationVelodyneScan::PointCloudStorageWrapper {
   /// False if there is a time at which it is not known where the robot was.
   bool complete() const { return complete_; }
 
-  void reserve(std::size_t count) override { out_.reserve(count); }
-  void add_point(float x, float y, float z, std::uint8_t intensity,
-                 const mrpt::system::TTimeStamp& time, float /*azimuth*/,
-                 std::uint16_t /*laser*/) override {
-    if (!packet_ || *packet_ != time) {
-      packet_ = time;
-      const auto sensor = sensorAt(mrpt::Clock::toDouble(time) + sweep_.half_packet);
+  void add(const VelodyneBeam& beam) {
+    // A robot does not move between the lasers of one firing.
+    constexpr double kFiring = 30e-6;
+    const double time = std::min(sweep_.start + beam.seconds, sweep_.end());
+    if (!time_ || std::abs(time - *time_) > kFiring) {
+      time_ = time;
+      const auto sensor = sensorAt(time);
       complete_ = complete_ && sensor;
-      if (sensor) start_from_packet_ = start_from_map_ * *sensor;
+      if (sensor) start_from_beam_ = start_from_map_ * *sensor;
     }
-    const Eigen::Vector3f moved = (start_from_packet_ * Eigen::Vector3d(x, y, z)).cast<float>();
+    // Points beyond maxRange are beams without a return, there as well.
+    const double scale = beam.returned ? 1 : kNoReturn * max_range_;
+    const Eigen::Vector3f moved =
+        (start_from_beam_ * (scale * beam.point.cast<double>())).cast<float>();
     out_.x.push_back(moved.x());
     out_.y.push_back(moved.y());
     out_.z.push_back(moved.z());
-    out_.intensity.push_back(intensity);
-    farthest_ = std::max(farthest_, moved.norm());
+    out_.intensity.push_back(beam.intensity);
+    out_.azimuth.push_back(0.01F * static_cast<float>(beam.azimuth));
+    out_.laser_id.push_back(beam.laser);
+    if (beam.returned) farthest_ = std::max(farthest_, moved.norm());
   }
   /// Largest range of a point that was added [m].
   float farthest() const { return farthest_; }
 
  private:
+  static constexpr double kNoReturn = 1000;
+
   std::optional<Eigen::Isometry3d> sensorAt(double time) const {
     const auto robot = motion_(time);
     if (!robot) return std::nullopt;
@@ -97,12 +99,13 @@ class MovedPoints : public CObservationVelodyneScan::PointCloudStorageWrapper {
   const Sweep& sweep_;
   const RobotMotion& motion_;
   const Eigen::Isometry3d mount_;
+  const double max_range_;  ///< [m]
   CObservationVelodyneScan::TPointCloud& out_;
   bool complete_ = false;
   float farthest_ = 0;
   Eigen::Isometry3d start_from_map_ = Eigen::Isometry3d::Identity();
-  std::optional<mrpt::system::TTimeStamp> packet_;
-  Eigen::Isometry3d start_from_packet_ = Eigen::Isometry3d::Identity();
+  std::optional<double> time_;
+  Eigen::Isometry3d start_from_beam_ = Eigen::Isometry3d::Identity();
 };
 
 }  // namespace
@@ -119,13 +122,14 @@ CObservationVelodyneScan::Ptr deskewed(const CObservationVelodyneScan& scan,
   copy->point_cloud.clear();
   MovedPoints points(scan, *sweep, motion, copy->point_cloud);
   if (points.complete()) {
-    CObservationVelodyneScan::TGeneratePointCloudParameters parameters;
-    parameters.minDistance = 0;  // as the map reads packets
+    std::vector<VelodyneBeam> beams;
     try {
-      copy->generatePointCloud(points, parameters);
+      beams = decodePackets(scan);
     } catch (const std::exception&) {
       return nullptr;
     }
+    copy->point_cloud.reserve(beams.size());
+    for (const VelodyneBeam& beam : beams) points.add(beam);
   }
   if (!points.complete()) {
     ++statistics.not_possible;

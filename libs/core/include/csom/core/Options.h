@@ -58,6 +58,7 @@ struct FreeSpaceOptions {
   FreeSpace mode = FreeSpace::None;
   double resolution = 0.5;
   double weight = 0.1;
+  bool no_return = false;
 
   template <class Self, class Visitor>
   static void visit(Self& o, Visitor&& visitor) {
@@ -67,6 +68,10 @@ struct FreeSpaceOptions {
     visitor(
         OptionInfo{"free_weight", "", "raycast: evidence of free for a crossed voxel", {1e-3, 1e5}},
         o.weight);
+    visitor(OptionInfo{"free_no_return", "",
+                       "beams that returned nothing are free up to max_range, if the sensor tells "
+                       "them (rotating LiDARs do); they may also have hit what is black or too near"},
+            o.no_return);
   }
 };
 
@@ -238,6 +243,8 @@ struct Options {
   bool castsRays() const {
     return free_space.mode == FreeSpace::Raycast || free_space.mode == FreeSpace::Projective;
   }
+  /// Whether scans that have an image are taken as such.
+  bool usesImages() const;
   bool usesContextEntropy() const { return method == Method::SeeCsom && see_csom.rvfm; }
   bool usesClassEntropy() const {
     return (method == Method::SeeCsom || method == Method::SurfaceCsom) && kernel.aklm;

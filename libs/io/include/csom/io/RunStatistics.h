@@ -36,6 +36,21 @@ struct LabelCounts {
   }
 };
 
+/// How it was told which points of a scan lie beside each other (csom::RangeImage), for methods
+/// that want to know.
+struct ScanImageCounts {
+  std::size_t of_sensor = 0;  ///< the observation says it
+  std::size_t found = 0;      ///< by the order or the elevations of its points
+  std::size_t none = 0;       ///< not at all: neighbours in space are taken
+
+  template <class Visitor, class... Selves>
+  static void visit(Visitor&& visitor, Selves&... s) {
+    visitor(StatisticInfo{"of_sensor", "Range images of the sensor"}, s.of_sensor...);
+    visitor(StatisticInfo{"found", "found in the order of the points"}, s.found...);
+    visitor(StatisticInfo{"none", "none"}, s.none...);
+  }
+};
+
 /// What became of the scans that consist of packets with times.
 struct DeskewStatistics {
   std::size_t deskewed = 0;

@@ -40,6 +40,7 @@ struct InsertionStatistics {
   std::map<std::string, std::string> why_damaged;  ///< by class name: reason of the first one
   LabelCounts labels;                              ///< sum over all observations
   std::size_t no_returns = 0;                      ///< beams that hit nothing (see SensorPoints)
+  ScanImageCounts images;                          ///< sum over all scans, if images are used
   ScanReport unused;                               ///< sum over the scans without_points counts
 };
 
@@ -246,6 +247,7 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
 
   LabelRules labelRules() const;
   ObservationAdapter& adapter();
+  BeamRequest beamRequest() const;
   /// To be called when voxels change.
   void invalidateCaches();
   /// Replaces all but the MRPT-side options. Throws before it changes anything.

@@ -26,10 +26,21 @@ class ByteWriter;
 struct AdaptedScan {
   Scan scan;
   LabelCounts labels;
-  std::size_t no_returns = 0;  ///< see SensorPoints
-  double timestamp = 0;        ///< seconds since 1970 (UTC); 0 if unknown
+  ImageOrigin image_origin = ImageOrigin::None;  ///< None if it was searched for in vain
+  std::size_t no_returns = 0;                    ///< see SensorPoints
+  double timestamp = 0;                          ///< seconds since 1970 (UTC); 0 if unknown
   std::string sensor_label;
   std::string observation_class;  ///< "CObservationVelodyneScan", …
+};
+
+/// What a map wants to know of the beams of scans.
+struct BeamRequest {
+  /// Whether the rows of clouds that do not tell them are to be searched for
+  /// (csom::findRangeImage()).
+  bool images = false;
+  /// Beams without a return become points of class free at this range, or that of the sensor [m].
+  /// 0: they do not.
+  double free_range = 0;
 };
 
 /// Turns observations into scans of labelled points. Labels may arrive with another observation
@@ -54,6 +65,9 @@ class ObservationAdapter {
   /// Null if it uses no cameras. Valid until the next call.
   virtual const CameraStatistics* cameraStatistics() const { return nullptr; }
 
+  /// Of the scans that it returns from now on.
+  void setBeamRequest(const BeamRequest& request) { beam_request_ = request; }
+
   // For adapters that use networks; the others have nothing to do.
   /// Loads them now rather than at the first image. Throws FileError.
   virtual void loadNetworks() {}
@@ -68,6 +82,12 @@ class ObservationAdapter {
   /// in that version of the map's stream.
   virtual void writeTo(ByteWriter& out) const = 0;
   virtual void readFrom(ByteReader& in, std::uint8_t version) = 0;
+
+ protected:
+  const BeamRequest& beamRequest() const { return beam_request_; }
+
+ private:
+  BeamRequest beam_request_;
 };
 
 /// The adapter for observations that carry their labels themselves, point by point or pixel by
@@ -94,6 +114,10 @@ double secondsSince1970(const mrpt::obs::CObservation& observation);
 /// The scan of one observation's points: in the frame of the map, axes parallel to it, relative to
 /// the sensor, points without a usable label left out and counted.
 AdaptedScan makeScan(const SensorPoints& points, const Eigen::Isometry3d& robot_pose,
-                     const LabelRules& rules);
+                     const LabelRules& rules, const BeamRequest& request);
+
+/// Gives points that may have an image theirs, if one is wanted and can be found; else their origin
+/// becomes ImageOrigin::None.
+void searchForImage(const BeamRequest& request, SensorPoints& points);
 
 }  // namespace csom

@@ -2,6 +2,7 @@
 // Points and labels of one observation, as the sensor sees them.
 #pragma once
 
+#include <csom/core/RangeImage.h>
 #include <csom/maps/LabelRules.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/poses/CPose3D.h>
@@ -10,6 +11,19 @@
 #include <vector>
 
 namespace csom {
+
+/// Which points of an observation lie beside each other.
+enum class ImageOrigin {
+  None,    ///< not known, and there is no way to tell
+  Sensor,  ///< the observation says it
+  Search,  ///< not known, but the points may be in the order of a turning sensor
+};
+
+/// A beam that nothing has thrown back.
+struct EmptyBeam {
+  Eigen::Vector3f farthest;  ///< in the frame of the sensor: what lies farther it cannot see [m]
+  RangeImage::Pixel pixel;
+};
 
 /// Points in the frame of the sensor, with one label each.
 ///
@@ -20,9 +34,12 @@ struct SensorPoints {
   mrpt::poses::CPose3D sensor_pose;     ///< on the robot
   std::vector<Eigen::Vector3f> points;  ///< [m]; may hold non-finite values, but never (0,0,0)
   std::vector<PointLabel> labels;       ///< as many as points
-  /// Beams that hit nothing and that the observation lists all the same. Velodyne packets are not
-  /// counted: MRPT makes points of those beams alone that hit something.
+  ImageOrigin image_origin = ImageOrigin::None;
+  RangeImage image;  ///< of ImageOrigin::Sensor; else empty
+  /// Beams that hit nothing and that the observation lists all the same.
   std::size_t no_returns = 0;
+  /// Those of them of which it is known where they went; only beside an image of the sensor.
+  std::vector<EmptyBeam> empty_beams;
 
   void reserve(std::size_t count) {
     points.reserve(count);
@@ -36,6 +53,16 @@ struct SensorPoints {
     }
     points.push_back(point);
     labels.push_back(label);
+  }
+  /// With its place in the image: all points or none have one.
+  void add(const Eigen::Vector3f& point, const PointLabel& label, const RangeImage::Pixel& pixel) {
+    const std::size_t before = points.size();
+    add(point, label);
+    if (points.size() > before) image.pixels.push_back(pixel);
+  }
+  void addEmpty(const EmptyBeam& beam) {
+    ++no_returns;
+    empty_beams.push_back(beam);
   }
 };
 

@@ -79,6 +79,7 @@ struct RunRecord {
   ScanReport unused;           ///< sum over the observations of which no point could be used
   LabelCounts labels;          ///< over all observations
   std::size_t no_returns = 0;  ///< beams that hit nothing; no points, and not among the rejected
+  ScanImageCounts images;      ///< all 0 if the method does not look at them
   std::vector<RefusedObservations> refused;
   std::optional<CameraStatistics> camera_labels;       ///< nothing if no camera is configured
   std::optional<DeskewStatistics> deskew;              ///< nothing if it is switched off
@@ -94,6 +95,10 @@ ScanReport totals(const RunRecord& record);
 /// outside of all cameras' views may be left out without being rejected.
 std::size_t pointsRead(const RunRecord& record);
 std::size_t pointsRejected(const RunRecord& record);
+
+/// Where the range images of the scans come from: "68 scans with the range image of the sensor",
+/// with more parts behind commas if there are several ways. Empty if images were not used.
+std::string describeImages(const ScanImageCounts& images);
 
 /// Time of the run beyond that of the network, as a share of the latter; nothing if no network ran.
 std::optional<double> addedShare(const RunRecord& record);

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <numeric>
+
+#include "rows/RowColumns.h"
+#include "rows/Rows.h"
+
+namespace csom::detail {
+
+namespace {
+
+float medianOf(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+bool arrange(const Directions& beams, Rows& rows) {
+  std::vector<std::vector<float>> elevations(rows.count);
+  for (std::size_t i = 0; i < beams.size(); ++i)
+    if (rows.of_beam[i] != Rows::kInNoRow)
+      elevations[rows.of_beam[i]].push_back(beams.elevation[i]);
+  std::vector<std::pair<float, std::size_t>> order;
+  std::size_t in_rows = 0;
+  for (std::size_t row = 0; row < rows.count; ++row) {
+    if (elevations[row].size() < kFewestBeamsOfRow) continue;
+    in_rows += elevations[row].size();
+    order.emplace_back(medianOf(elevations[row]), row);
+  }
+  if (order.size() < kFewestRows || order.size() > kMostRows || 10 * in_rows < 9 * beams.size())
+    return false;
+  std::sort(order.begin(), order.end());
+
+  std::vector<float> gaps;
+  for (std::size_t i = 1; i < order.size(); ++i)
+    gaps.push_back(order[i].first - order[i - 1].first);
+  const float apart = medianOf(gaps);
+  const auto same = static_cast<std::size_t>(
+      std::count_if(gaps.begin(), gaps.end(), [&](float gap) { return gap < 0.25F * apart; }));
+  if (apart <= 0 || 10 * same > gaps.size()) return false;
+
+  std::vector<std::uint16_t> number(rows.count, Rows::kInNoRow);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    number[order[i].second] = static_cast<std::uint16_t>(i);
+  for (std::uint16_t& row : rows.of_beam)
+    if (row != Rows::kInNoRow) row = number[row];
+  rows.count = order.size();
+  return true;
+}
+
+bool areEvenlySpaced(const Directions& beams, const Rows& rows) {
+  RowColumns columns(rows.count);
+  for (std::size_t i = 0; i < beams.size(); ++i)
+    if (rows.of_beam[i] != Rows::kInNoRow) columns.add(rows.of_beam[i], beams.azimuth[i]);
+  const std::vector<std::uint32_t> steps = columns.countSteps();
+  const auto step = static_cast<std::size_t>(medianStep(steps));
+  std::size_t all = 0;
+  std::size_t even = 0;
+  std::size_t same = 0;
+  std::size_t near = 0;
+  for (std::size_t columns_apart = 0; columns_apart < steps.size(); ++columns_apart) {
+    const std::size_t count = steps[columns_apart];
+    all += count;
+    if (columns_apart <= 1 && step > 2)
+      same += count;
+    else if (10 * columns_apart < 4 * step)
+      near += count;
+    if (10 * columns_apart >= 6 * step && 10 * columns_apart <= 16 * step) even += count;
+  }
+  return 2 * even >= all - same && 10 * near <= all && 10 * same <= 4 * all;
+}
+
+}  // namespace csom::detail
