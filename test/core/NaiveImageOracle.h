@@ -283,7 +283,8 @@ class NaiveImageOracle {
     });
     return order;
   }
-  /// Pixels no wider than beams of a row are apart, root mean square; 16 to 512, a power of two.
+  /// Pixels no wider than beams of a row are apart, root mean square, or than a voxel at 25 m; 16
+  /// to 512, a power of two.
   int sideFor() const {
     double sum = 0;
     double count = 0;
@@ -296,7 +297,7 @@ class NaiveImageOracle {
       sum += dot(cross(p, q), cross(p, q)) / (dot(p, p) * dot(q, q));
       ++count;
     }
-    const double sine = count > 0 ? std::sqrt(sum / count) : 0;
+    const double sine = std::max(count > 0 ? std::sqrt(sum / count) : 0, o_.resolution / 25);
     int side = 16;
     while (side < 512 && sine * side < 2) side *= 2;
     return side;

@@ -20,7 +20,7 @@ class RandomImage : public RandomCase {
   Options imageOptions() {
     Options o;
     o.number_of_classes = integer(3, 8);
-    o.resolution = oneOf<double>({0.1, 0.2, 0.25, 0.3});
+    o.resolution = oneOf<double>({0.1, 0.2, 0.25, 0.3, 3});
     o.free_space.mode = oneOf<FreeSpace>(
         {FreeSpace::None, FreeSpace::Projective, FreeSpace::Projective, FreeSpace::Projective});
     return o;

@@ -51,7 +51,7 @@ class CubeWindows {
 class CubeGrid {
  public:
   static constexpr int kFaces = 6;
-  /// For beams so far apart, as sine of an angle: pixels no wider, of 16 to 512 along an axis.
+  /// For what is so far apart, as sine of an angle: pixels no wider, of 16 to 512 along an axis.
   static CubeGrid forSpacing(double sine);
 
   int side() const { return side_; }

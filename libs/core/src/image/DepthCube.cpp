@@ -13,6 +13,9 @@ namespace csom::detail {
 
 namespace {
 
+/// Where a voxel is as wide as a pixel, if beams do not ask for wider ones [m].
+constexpr double kVoxelAsWideAsPixel = 25;
+
 /// Root mean square of the sine between adjacent beams of a row; 0 if there are none.
 double spacingOf(const ImageBeams& beams) {
   double sum = 0;
@@ -31,8 +34,10 @@ double spacingOf(const ImageBeams& beams) {
 
 }  // namespace
 
-DepthCube::DepthCube(const ImageBeams& beams, const Facets& facets, int threads)
-    : grid_(CubeGrid::forSpacing(spacingOf(beams))) {
+DepthCube::DepthCube(const ImageBeams& beams, const Facets& facets, const Options& options)
+    : grid_(CubeGrid::forSpacing(
+          std::max(spacingOf(beams), options.resolution / kVoxelAsWideAsPixel))) {
+  const int threads = options.threads;
   const BeamProjections projections(beams, threads);
   parallelRanges(faces_.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t face = begin; face < end; ++face)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <csom/core/Grid.h>
+#include <csom/core/Options.h>
 
 #include <array>
 #include <cstdint>
@@ -31,7 +32,7 @@ struct ChunkBoxes {
 /// was drawn was looked through. Where nothing was drawn, nothing is known: beams get lost.
 class CSOM_OF_ONE_BINARY DepthCube {
  public:
-  DepthCube(const ImageBeams& beams, const Facets& facets, int threads);
+  DepthCube(const ImageBeams& beams, const Facets& facets, const Options& options);
 
   const CubeGrid& grid() const { return grid_; }
 

@@ -86,7 +86,7 @@ class ImageInference {
   void findFree() {
     ScanReport with_surfaces;  // not what the caller's report counts
     if (options_.free_space.mode == FreeSpace::Projective)
-      free_ = findFreeSpace(beams_, DepthCube(beams_, facets_, options_.threads), options_);
+      free_ = findFreeSpace(beams_, DepthCube(beams_, facets_, options_), options_);
     if (options_.free_space.mode == FreeSpace::Raycast)
       free_ = castFreeSpace(scan_, options_, with_surfaces);
   }

@@ -12,7 +12,7 @@ namespace {
 
 // All in columns, hundredths of a degree.
 constexpr std::int32_t kSmallStep = 500;  ///< from one beam of a row to the next, with some lost
-constexpr std::int32_t kFarBack = 3000;   ///< from the end of a row to where the next one begins
+constexpr std::int32_t kFarBack = 3000;   ///< no beam of a row is so far behind the one before
 constexpr std::int32_t kBack = 20;        ///< behind by more than what is not quite in order
 constexpr std::int32_t kBeside = 200;     ///< of the seam: where a row may begin
 
@@ -27,9 +27,11 @@ class Helix {
     for (std::size_t i = 1; i < beams.size(); ++i) at_.push_back(at += step(i));
   }
 
-  /// From the beam before, as the sensor turns: −18000 … 18000.
+  /// From the beam before, as the sensor turns: −kFarBack … 36000 − kFarBack. What is farther back
+  /// is one turn later, in the next row.
   std::int32_t step(std::size_t i) const {
-    return sense_ * turnFrom(beams_.azimuth[i - 1], beams_.azimuth[i]);
+    const std::int32_t step = sense_ * turnFrom(beams_.azimuth[i - 1], beams_.azimuth[i]);
+    return step < -kFarBack ? step + kColumnsOfTurn : step;
   }
   float elevationStep(std::size_t i) const {
     return std::abs(beams_.elevation[i] - beams_.elevation[i - 1]);
@@ -54,7 +56,7 @@ class Seam {
  public:
   Seam(const Directions& beams, const Helix& helix) : beams_(beams), helix_(helix) {}
 
-  /// In 0 … 35999 as the sensor turns.
+  /// In 0 … 35999 as the sensor turns. Nothing if it does not turn so often that there are rows.
   std::optional<std::int32_t> find() const {
     const auto [lowest, highest] = std::minmax_element(helix_.at().begin(), helix_.at().end());
     const std::int64_t turns = (*highest - *lowest) / kColumnsOfTurn;
@@ -64,7 +66,8 @@ class Seam {
     for (std::size_t i = beams_.size(); i-- > 0;)
       elevation[static_cast<std::size_t>((helix_.at()[i] - base) / kBin)] = beams_.elevation[i];
 
-    std::int64_t best = -1;
+    // Where there is no beam that tells, in the middle of where none is.
+    std::int64_t best = (firstBin() + lastBin()) / 2 % kBins;
     float most = 0;
     for (std::int64_t bin = firstBin(); bin <= lastBin(); ++bin) {
       const float score = scoreOf(elevation, bin % kBins);
@@ -72,7 +75,6 @@ class Seam {
       most = score;
       best = bin % kBins;
     }
-    if (best < 0) return std::nullopt;
     return refined(static_cast<std::int32_t>(best) * kBin);
   }
 
@@ -156,14 +158,6 @@ int senseOf(const Directions& beams) {
   return forward > backward ? 1 : -1;
 }
 
-/// The first beams of all rows but the first, for a sensor that does not see all around.
-std::vector<std::size_t> findTurningBack(const Helix& helix) {
-  std::vector<std::size_t> begins;
-  for (std::size_t i = 1; i < helix.at().size(); ++i)
-    if (helix.step(i) < -kFarBack) begins.push_back(i);
-  return begins;
-}
-
 /// The first beams of all rows but the first: those behind the seam. Not all rows of some sensors
 /// begin at quite the same place: the azimuth goes back there, or the elevation jumps.
 std::vector<std::size_t> findCrossings(const Helix& helix, std::int32_t seam) {
@@ -194,12 +188,9 @@ std::optional<Rows> findRowsInOrder(const Directions& beams) {
   const int sense = senseOf(beams);
   if (sense == 0) return std::nullopt;
   const Helix helix(beams, sense);
-  std::vector<std::size_t> begins = findTurningBack(helix);
-  if (begins.size() + 1 < kFewestRows) {
-    const std::optional<std::int32_t> seam = Seam(beams, helix).find();
-    if (!seam) return std::nullopt;
-    begins = findCrossings(helix, *seam);
-  }
+  const std::optional<std::int32_t> seam = Seam(beams, helix).find();
+  if (!seam) return std::nullopt;
+  std::vector<std::size_t> begins = findCrossings(helix, *seam);
   if (begins.size() + 1 > kMostRows) return std::nullopt;
   Rows rows;
   rows.count = begins.size() + 1;

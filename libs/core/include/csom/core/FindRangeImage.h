@@ -19,8 +19,8 @@ namespace csom {
 /// have. Beams that returned nothing may be among them, as (0,0,0) or non-finite: they get no row.
 ///
 /// Columns are hundredths of a degree, from the x axis to the y axis. Nothing if the points are not
-/// such a scan: those of several scans, of another origin, too few (rows of less than 16 points,
-/// less than four rows), or in no order.
+/// such a scan: those of several scans, too few (less than four rows of at least 16), or neither in
+/// order nor of few elevations.
 ///
 /// Rows are found, not guessed: what is returned has passed the checks of docs/algorithm.md. The
 /// same on every processor. Thread-safe.
