@@ -2,6 +2,7 @@
 // Every kind of observation, with its labels, becomes the right points.
 #include <csom/maps/ObservationAdapter.h>
 #include <csom/maps/PoseRounding.h>
+#include <csom/maps/VelodynePackets.h>
 #include <gmock/gmock.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRotatingScan.h>
@@ -155,15 +156,12 @@ TEST_F(ObservationAdapter, VelodynePacketsAreDecoded) {
   const auto& recorded = dynamic_cast<const mrpt::obs::CObservationVelodyneScan&>(*observation);
   ASSERT_TRUE(recorded.point_cloud.x.empty());
   const AdaptedScan scan = adapt(*observation, rules(PointLabels::None, "wall"));
-  EXPECT_EQ(scan.scan.points.size(), 11305u);
   EXPECT_TRUE(recorded.point_cloud.x.empty()) << "the observation was modified";
-
-  auto decoded = recorded;
-  decoded.generatePointCloud();
-  for (const std::size_t i : {std::size_t{0}, std::size_t{5000}, std::size_t{11304}}) {
-    const auto& cloud = decoded.point_cloud;
-    expectNear(scan.scan.points[i], {cloud.x[i], cloud.y[i], cloud.z[i]});
-  }
+  const std::vector<VelodyneBeam> beams = decodePackets(recorded);
+  EXPECT_EQ(scan.scan.points.size() + scan.no_returns, beams.size());
+  std::size_t i = 0;
+  for (const VelodyneBeam& beam : beams)
+    if (beam.returned) expectNear(scan.scan.points.at(i++), beam.point);
 }
 
 TEST_F(ObservationAdapter, DamagedVelodyneScansAreErrors) {
@@ -293,7 +291,9 @@ TEST_F(ObservationAdapter, RotatingScanEqualsTheVelodyneScanItWasMadeOf) {
       adapt(*firstOf("rot_scan_velodyne.rawlog"), rules(PointLabels::None, "wall"));
   const AdaptedScan velodyne =
       adapt(*firstOf("test_velodyne_VLP16.rawlog"), rules(PointLabels::None, "wall"));
-  EXPECT_EQ(rotating.scan.points.size(), velodyne.scan.points.size());
+  // MRPT reads the first one of two firings.
+  EXPECT_NEAR(static_cast<double>(rotating.scan.points.size()),
+              0.5 * static_cast<double>(velodyne.scan.points.size()), 200);
   EXPECT_LT(typicalDistance(rotating.scan, velodyne.scan), 0.1);
 }
 
