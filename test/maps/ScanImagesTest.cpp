@@ -46,8 +46,9 @@ std::vector<Eigen::Vector3f> spinningCloud(int rows = 16, int columns = 900) {
 class ScanImages : public testing::Test {
  protected:
   AdaptedScan adapt(const mrpt::obs::CObservation& observation, const BeamRequest& request,
-                    const std::string& unlabelled = "wall") {
-    const LabelRules rules(labels_, PointLabels::ByIntensity, unlabelled, "wall");
+                    PointLabels labels = PointLabels::None) {
+    const std::string unlabelled = labels == PointLabels::None ? "wall" : "drop";
+    const LabelRules rules(labels_, labels, unlabelled, "wall");
     SelfLabelledAdapter adapter;
     adapter.setBeamRequest(request);
     auto scans = adapter.adapt(observation, roundedPose({1, 2, 3, 0.4, 0, 0}), rules);
@@ -82,8 +83,8 @@ TEST_F(ScanImages, PacketsTellRowsAndAzimuths) {
 TEST_F(ScanImages, PointsThatAreDroppedLeaveTheirPixelsEmpty) {
   const auto observation = recordedScan();
   const AdaptedScan all = adapt(*observation);
-  // Intensities are raw ids here: 40 and 50 have a class.
-  const AdaptedScan some = adapt(*observation, {true, 0}, "drop");
+  // Intensities as raw ids: 40 and 50 have a class.
+  const AdaptedScan some = adapt(*observation, {true, 0}, PointLabels::ByIntensity);
   ASSERT_LT(some.scan.points.size(), all.scan.points.size());
   ASSERT_EQ(some.scan.image.pixels.size(), some.scan.points.size());
   std::size_t i = 0;

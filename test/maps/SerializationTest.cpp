@@ -215,6 +215,12 @@ Bytes asWrittenBy(std::uint8_t version, const Bytes& today) {
     if (version >= 4) out.number(static_cast<std::uint64_t>(labels.kept_unknown));
   }
   copyBytes(sizeof(std::uint64_t), version < 4 ? later : out);  // beams without return
+  const auto image_counts = in.number<std::uint64_t>();
+  if (version >= 6) out.number(image_counts);
+  for (std::uint64_t left = image_counts; left > 0; --left) {
+    copyTexts(1, version < 6 ? later : out);
+    copyBytes(sizeof(double), version < 6 ? later : out);
+  }
   copyBytes(in.left() - 1, out);
   copyBytes(1, version < 1 ? later : out);  // is there an adapter? no
   parts.front.back() = version;
@@ -226,8 +232,8 @@ TEST(Serialization, ReadsWhatEarlierVersionsWrote) {
   CSemanticContinuousMap map = fullMap();
   map.labelOptions.max_time_offset = 0.0625;
   const Bytes today = serialised(map);
-  ASSERT_EQ(asWrittenBy(5, today), today) << "the test does not follow the format any more";
-  for (std::uint8_t version = 0; version < 5; ++version) {
+  ASSERT_EQ(asWrittenBy(6, today), today) << "the test does not follow the format any more";
+  for (std::uint8_t version = 0; version < 6; ++version) {
     SCOPED_TRACE(static_cast<int>(version));
     CSemanticContinuousMap copy;
     readInto(copy, asWrittenBy(version, today));
