@@ -10,10 +10,21 @@
 
 #include "inference/FreeSpaceRays.h"
 #include "inference/Inference.h"
+#include "scan/PrepareInto.h"
 #include "util/Parallel.h"
 #include "util/VoxelTraversal.h"
 
 namespace csom {
+
+struct CSOM_OF_ONE_BINARY detail::InsertionMemory {
+  PreparedScan prepared;
+  ImageMemory image;
+};
+
+detail::InsertionMemory& detail::InsertionMemoryOfMap::get() {
+  if (!memory_) memory_ = std::make_shared<InsertionMemory>();
+  return *memory_;
+}
 
 namespace {
 
@@ -49,9 +60,12 @@ ScanReport SemanticMap::insert(const Scan& scan) {
   ScanReport report;
   detail::withThreads(options_.threads, [&] {
     Stopwatch watch;
-    const PreparedScan prepared = prepareScan(scan, options_, report);
+    detail::InsertionMemory& memory = memory_.get();
+    PreparedScan& prepared = memory.prepared;
+    detail::prepareScan(scan, options_, report, prepared);
     report.prepare_ms = watch.lap();
-    const ScanIncrements kernel_mass = detail::inferIncrements(prepared, options_, report);
+    const ScanIncrements kernel_mass =
+        detail::inferIncrements(prepared, options_, report, memory.image);
     const ScanIncrements free_space = prepared.image_points.image.empty()
                                           ? detail::castFreeSpace(prepared, options_, report)
                                           : ScanIncrements{};

@@ -15,6 +15,23 @@ constexpr std::int64_t kNextTenths = 16;
 /// Beams of adjacent rows lie side by side if they are nearer.
 constexpr std::int64_t kAboveTenths = 8;
 
+/// By insertion, as long as most are in order.
+template <class Iterator, class Before>
+void sortNearlySorted(Iterator first, Iterator last, const Before& before) {
+  auto moves = 4 * (last - first);
+  for (Iterator i = first; i != last; ++i) {
+    const auto item = *i;
+    Iterator to = i;
+    for (; to != first && before(item, *(to - 1)); --to) *to = *(to - 1);
+    *to = item;
+    moves -= i - to;
+    if (moves < 0) {
+      std::sort(first, last, before);
+      return;
+    }
+  }
+}
+
 /// Lists the beams row by row and finds what lies beside them.
 class Arrangement {
  public:
@@ -36,7 +53,7 @@ class Arrangement {
   }
 
  private:
-  std::int64_t columnOf(std::size_t beam) const { return columns_[beam]; }
+  std::int64_t columnOf(std::size_t beam) const { return out_.columns[beam]; }
   bool isNear(std::int64_t columns, std::int64_t tenths) const {
     return 10 * columns < tenths * image_.column_step;
   }
@@ -51,7 +68,8 @@ class Arrangement {
     for (const RangeImage::Pixel& pixel : pixels)
       if (pixel.row != RangeImage::kNoRow) ++begin[pixel.row + 1U];
     for (std::size_t row = 0; row < rows; ++row) begin[row + 1] += begin[row];
-    std::vector<std::uint32_t> points(begin[rows]);
+    std::vector<std::uint32_t>& points = out_.points;
+    points.resize(begin[rows]);
     std::vector<std::uint32_t> end(begin.begin(), begin.end() - 1);
     for (std::uint32_t i = 0; i < pixels.size(); ++i)
       if (pixels[i].row != RangeImage::kNoRow) points[end[pixels[i].row]++] = i;
@@ -60,23 +78,36 @@ class Arrangement {
       return pixels[a].column != pixels[b].column ? pixels[a].column < pixels[b].column : a < b;
     };
     out_.row_begin.assign(1, 0);
-    out_.point.reserve(points.size());
-    columns_.reserve(points.size());
+    out_.point.clear();
+    out_.columns.clear();
     for (std::size_t row = 0; row < rows; ++row) {
       const auto first = points.begin() + begin[row];
       const auto last = points.begin() + begin[row + 1];
-      // A turn may begin anywhere.
-      const auto drop = std::is_sorted_until(first, last, before);
-      if (drop != last) std::rotate(first, drop, last);
-      if (!std::is_sorted(first, last, before)) std::sort(first, last, before);
+      std::rotate(first, beginOfTurn(first, last), last);
+      sortNearlySorted(first, last, before);
       for (auto point = first; point != last; ++point) {
         const std::int32_t column = pixels[*point].column;
-        if (out_.point.size() > out_.row_begin.back() && columns_.back() == column) continue;
+        if (out_.point.size() > out_.row_begin.back() && out_.columns.back() == column) continue;
         out_.point.push_back(*point);
-        columns_.push_back(column);
+        out_.columns.push_back(column);
       }
       out_.row_begin.push_back(static_cast<std::uint32_t>(out_.point.size()));
     }
+  }
+
+  /// A turn may begin at any column: the point behind the one from which it goes back the most, if
+  /// that is more than half a turn.
+  template <class Iterator>
+  Iterator beginOfTurn(Iterator first, Iterator last) const {
+    const auto column = [&](Iterator point) { return std::int64_t{image_.pixels[*point].column}; };
+    Iterator begin = first;
+    std::int64_t most = image_.columns_of_turn / 2;
+    for (Iterator i = first; i != last; ++i) {
+      if (i == first || column(i - 1) - column(i) <= most) continue;
+      most = column(i - 1) - column(i);
+      begin = i;
+    }
+    return begin;
   }
 
   void linkRow(std::size_t row) const {
@@ -125,12 +156,11 @@ class Arrangement {
 
   const RangeImage& image_;
   BeamNeighbours& out_;
-  std::vector<std::int32_t> columns_;  ///< of the beams
 };
 
 }  // namespace
 
-BeamNeighbours::BeamNeighbours(const RangeImage& image, int threads) {
+void BeamNeighbours::find(const RangeImage& image, int threads) {
   Arrangement(image, *this).run(threads);
 }
 

@@ -21,7 +21,7 @@ constexpr BeamId kNoBeam = -1;
 /// is nearer than 0.8 column steps; below it that of the row before. Of two as near that without a
 /// turn between comes first, then that of the lower column.
 struct BeamNeighbours {
-  BeamNeighbours(const RangeImage& image, int threads);
+  void find(const RangeImage& image, int threads);
 
   std::size_t size() const { return point.size(); }
 
@@ -31,6 +31,10 @@ struct BeamNeighbours {
   std::vector<BeamId> previous;
   std::vector<BeamId> above;
   std::vector<BeamId> below;
+
+  // For finding them, kept for the next scan.
+  std::vector<std::uint32_t> points;  ///< by row
+  std::vector<std::int32_t> columns;  ///< of the beams
 };
 
 }  // namespace csom::detail

@@ -68,11 +68,6 @@ CubeWindows CubeGrid::windowsOf(const SpaceBox& box) const {
   return windows;
 }
 
-int CubeGrid::mostPixels(float edge, float nearest) const {
-  // (u + e/2)/(d − e/2) − (u − e/2)/(d + e/2) ≤ 2e/(d − e/2) where |u| ≤ d; and both borders.
-  return static_cast<int>(std::min(2 * edge / nearest * halfSide(), static_cast<float>(side_))) + 3;
-}
-
 int CubeGrid::levelOf(const CubeWindow& window) const {
   constexpr int kFew = 4;  // fewer are cheaper to look at, more are surer to tell
   const int size = std::max(window.last_u - window.first_u, window.last_v - window.first_v);

@@ -78,8 +78,6 @@ class CubeGrid {
 
   /// As much of the box as is seen through each face, for those that show any of it.
   CubeWindows windowsOf(const SpaceBox& box) const;
-  /// What boxes of an edge, no nearer than a depth, lie behind along an axis: no more pixels.
-  int mostPixels(float edge, float nearest) const;
   /// The level of the pyramid at which a window has a few pixels along each axis.
   int levelOf(const CubeWindow& window) const;
 

@@ -34,42 +34,29 @@ double spacingOf(const ImageBeams& beams) {
 
 }  // namespace
 
-DepthCube::DepthCube(const ImageBeams& beams, const Facets& facets, const Options& options)
-    : grid_(CubeGrid::forSpacing(
-          std::max(spacingOf(beams), options.resolution / kVoxelAsWideAsPixel))) {
-  const int threads = options.threads;
-  const BeamProjections projections(beams, threads);
-  parallelRanges(faces_.size(), threads, [&](std::size_t begin, std::size_t end) {
+void DepthCube::draw(const ImageBeams& beams, const Facets& facets, const Options& options) {
+  grid_ =
+      CubeGrid::forSpacing(std::max(spacingOf(beams), options.resolution / kVoxelAsWideAsPixel));
+  projections_.compute(beams, options.threads);
+  parallelRanges(faces_.size(), options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t face = begin; face < end; ++face)
-      FacePainter(grid_, static_cast<int>(face), beams, facets, projections, faces_[face]).run();
+      FacePainter(grid_, static_cast<int>(face), beams, facets, projections_, faces_[face]).run();
   });
 }
 
-template <class Accept>
-bool DepthCube::holdsForAll(const DepthPyramid& pyramid, const CubeWindow& window, int level,
-                            const Accept& accept) const {
-  const int side = grid_.side() >> level;
-  const float* const pixels = pyramid.level(level);
-  for (int v = window.first_v >> level; v <= window.last_v >> level; ++v)
-    for (int u = window.first_u >> level; u <= window.last_u >> level; ++u)
-      if (!accept(pixels[v * side + u])) return false;
-  return true;
-}
-
-bool DepthCube::isAllInFront(const CubeWindow& window, int level) const {
-  const DepthPyramid& complete = faceAt(window.face).complete;
-  const float limit = 1 / window.farthest;
-  return !complete.empty() && holdsForAll(complete, window, level, [&](float inverse) {
-    return inverse > 0 && inverse <= limit;
-  });
-}
-
-bool DepthCube::isAllBehind(const CubeWindow& window, int level) const {
-  const DepthPyramid& farthest = faceAt(window.face).farthest;
+bool DepthCube::isAllBehind(const CubeWindow& window) const {
+  const DepthFace& face = faceAt(window.face);
+  if (face.empty) return true;
   const float limit = 1 / window.nearest;
-  return farthest.empty() || holdsForAll(farthest, window, level, [&](float inverse) {
-           return inverse == 0 || inverse > limit;
-         });
+  const int level = grid_.levelOf(window);
+  const int side = grid_.side() >> level;
+  const float* const pixels = level == 0 ? face.nearest.level(0) : face.farthest.level(level);
+  for (int v = window.first_v >> level; v <= window.last_v >> level; ++v)
+    for (int u = window.first_u >> level; u <= window.last_u >> level; ++u) {
+      const float inverse = pixels[v * side + u];
+      if (inverse != 0 && inverse <= limit) return false;
+    }
+  return true;
 }
 
 namespace {
@@ -80,16 +67,20 @@ CSOM_INLINE Lanes load(const ChunkBoxes::Bounds& bounds) {
   return lanes;
 }
 
-/// SlidingMaxima of a face.
+/// The nearest of a face, see DepthFace.
 struct SquareImage {
   const float* squares;
   std::int32_t half_side;
   std::int32_t last_level;
 };
 
-/// What eight voxels lie behind along an axis.
+/// What eight voxels lie behind along an axis, and their centres.
 struct alignas(kLaneAlignment) PixelRange {
-  IntLanes first, last;
+  IntLanes first, last, centre;
+};
+/// Inverse depths of eight voxels: at their nearest, at their farthest, half of that in between.
+struct alignas(kLaneAlignment) InverseDepths {
+  Lanes near, far, half_middle;
 };
 
 CSOM_INLINE IntLanes pixelsOf(const IntLanes& from_centre, const SquareImage& image) {
@@ -98,17 +89,21 @@ CSOM_INLINE IntLanes pixelsOf(const IntLanes& from_centre, const SquareImage& im
   const IntLanes positive = pixel < 0 ? IntLanes{} : pixel;
   return positive > last ? last : positive;
 }
-/// CubeGrid::window() of eight voxels: bounds along u or v, and inverse depths.
-CSOM_INLINE PixelRange rangeOf(const Lanes& min, const Lanes& max, const Lanes& near,
-                               const Lanes& far, const SquareImage& image) {
+CSOM_INLINE IntLanes floorOf(const Lanes& v) {
+  const IntLanes whole = __builtin_convertvector(v, IntLanes);  // towards 0
+  return whole + (__builtin_convertvector(whole, Lanes) > v);
+}
+/// CubeGrid::window() of eight voxels along u or v.
+CSOM_INLINE PixelRange rangeOf(const Lanes& min, const Lanes& max, const InverseDepths& inverse,
+                               const SquareImage& image) {
   const auto half_side = static_cast<float>(image.half_side);
-  const Lanes lower = min * (min < 0 ? near : far) * half_side;
-  const Lanes upper = max * (max > 0 ? near : far) * half_side;
+  const Lanes lower = min * (min < 0 ? inverse.near : inverse.far) * half_side;
+  const Lanes upper = max * (max > 0 ? inverse.near : inverse.far) * half_side;
+  const Lanes centre = (min + max) * inverse.half_middle * half_side;
   const IntLanes whole_lower = __builtin_convertvector(lower, IntLanes);
-  const IntLanes whole_upper = __builtin_convertvector(upper, IntLanes);
   const IntLanes ceiling = whole_lower - (__builtin_convertvector(whole_lower, Lanes) < lower);
-  const IntLanes floor = whole_upper + (__builtin_convertvector(whole_upper, Lanes) > upper);
-  return {pixelsOf(ceiling - 1, image), pixelsOf(floor, image)};
+  return {pixelsOf(ceiling - 1, image), pixelsOf(floorOf(upper), image),
+          pixelsOf(floorOf(centre), image)};
 }
 
 /// Looks through one face at the voxels of a chunk. What a voxel lies behind along u depends on
@@ -134,24 +129,27 @@ void lookAt(const ChunkBoxes& boxes, int face, bool one_face, const SquareImage&
   // What is not in front of the sensor has no range of pixels: any numbers.
   const auto nearOf = [&](std::size_t i) { return sign * first[i] > 0 ? sign / first[i] : 1; };
   const auto farOf = [&](std::size_t i) { return sign * first[i] > 0 ? sign / last[i] : 0; };
+  const auto middleOf = [&](std::size_t i) {
+    return sign * first[i] > 0 ? sign / (first[i] + last[i]) : 0;
+  };
   if (axes.depth == 0) {
-    Lanes near, far;
+    InverseDepths inverse;
     for (std::size_t i = 0; i < kLanes; ++i) {
-      near[i] = nearOf(i);
-      far[i] = farOf(i);
+      inverse.near[i] = nearOf(i);
+      inverse.far[i] = farOf(i);
+      inverse.half_middle[i] = middleOf(i);
     }
     for (std::size_t i = 0; i < kChunkSide; ++i) {
-      view.far[i] = far;
-      view.u[i] = rangeOf(Lanes{} + boxes.min[1][i], Lanes{} + boxes.max[1][i], near, far, image);
-      view.v[i] = rangeOf(Lanes{} + boxes.min[2][i], Lanes{} + boxes.max[2][i], near, far, image);
+      view.far[i] = inverse.far;
+      view.u[i] = rangeOf(Lanes{} + boxes.min[1][i], Lanes{} + boxes.max[1][i], inverse, image);
+      view.v[i] = rangeOf(Lanes{} + boxes.min[2][i], Lanes{} + boxes.max[2][i], inverse, image);
     }
   } else {
     for (std::size_t i = 0; i < kChunkSide; ++i) {
-      const Lanes near = Lanes{} + nearOf(i);
-      const Lanes far = Lanes{} + farOf(i);
-      view.far[i] = far;
-      view.u[i] = rangeOf(load(boxes.min[0]), load(boxes.max[0]), near, far, image);
-      view.v[i] = rangeOf(load(boxes.min[axes.v]), load(boxes.max[axes.v]), near, far, image);
+      const InverseDepths inverse{Lanes{} + nearOf(i), Lanes{} + farOf(i), Lanes{} + middleOf(i)};
+      view.far[i] = inverse.far;
+      view.u[i] = rangeOf(load(boxes.min[0]), load(boxes.max[0]), inverse, image);
+      view.v[i] = rangeOf(load(boxes.min[axes.v]), load(boxes.max[axes.v]), inverse, image);
     }
   }
   if (one_face) return;
@@ -178,7 +176,7 @@ std::uint32_t rowInFront(const ChunkView& view, std::size_t y, std::size_t z,
   PixelRange v = view.v[depth_axis == 0 ? z : depth];
   if (depth_axis != 0) {
     const std::size_t lane = depth_axis == 1 ? z : y;
-    v = {IntLanes{} + v.first[lane], IntLanes{} + v.last[lane]};
+    v = {IntLanes{} + v.first[lane], IntLanes{} + v.last[lane], IntLanes{} + v.centre[lane]};
   }
   // The exponent of a number is the whole part of its logarithm.
   const IntLanes size_u = u.last - u.first;
@@ -205,7 +203,10 @@ std::uint32_t rowInFront(const ChunkView& view, std::size_t y, std::size_t z,
     for (std::size_t lane = 0; lane < kLanes; ++lane) here[lane] = image.squares[square[lane]];
     inverse = inverse > here ? inverse : here;
   }
-  IntLanes passes = (inverse <= view.far[depth]) & (inverse > 0);
+  const IntLanes centre = v.centre * side + u.centre;
+  Lanes at_centre;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) at_centre[lane] = image.squares[centre[lane]];
+  IntLanes passes = (inverse <= view.far[depth]) & (at_centre > 0);
   if (!one_face) passes |= view.seen[8 * z + y] == 0;
   std::uint32_t bits = 0;
   for (std::size_t lane = 0; lane < kLanes; ++lane)
@@ -217,12 +218,11 @@ std::uint32_t rowInFront(const ChunkView& view, std::size_t y, std::size_t z,
 
 void DepthCube::keepInFront(const ChunkBoxes& boxes, int face, bool one_face,
                             std::array<std::uint64_t, kVoxelsPerChunk / 64>& voxels) const {
-  const SlidingMaxima& nearest = faceAt(face).nearest;
   // Nothing was drawn: squares of zeros.
   static constexpr float kNothing = 0;
-  const SquareImage image = nearest.empty()
-                                ? SquareImage{&kNothing, 0, 0}
-                                : SquareImage{nearest.all(), grid_.side() / 2, grid_.levels() - 2};
+  const SquareImage image = faceAt(face).empty ? SquareImage{&kNothing, 0, 0}
+                                               : SquareImage{faceAt(face).nearest.level(0),
+                                                             grid_.side() / 2, grid_.levels() - 2};
   ChunkView view;
   lookAt(boxes, face, one_face, image, view);
   const std::size_t depth_axis = FaceAxes(face).depth;

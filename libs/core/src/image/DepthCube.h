@@ -10,6 +10,7 @@
 
 #include "image/CubeGrid.h"
 #include "image/DepthPyramid.h"
+#include "image/FacePainter.h"
 #include "image/Facets.h"
 #include "image/ImageBeams.h"
 #include "util/Lanes.h"
@@ -32,35 +33,32 @@ struct ChunkBoxes {
 /// was drawn was looked through. Where nothing was drawn, nothing is known: beams get lost.
 class CSOM_OF_ONE_BINARY DepthCube {
  public:
-  DepthCube(const ImageBeams& beams, const Facets& facets, const Options& options);
+  void draw(const ImageBeams& beams, const Facets& facets, const Options& options);
 
   const CubeGrid& grid() const { return grid_; }
 
   /// Of the voxels of a chunk, a bit each, takes out those that do not lie in front of all that was
-  /// drawn in their window, or in whose window nothing was. Asks those whose centre is seen through
+  /// drawn in their window, or at whose centre nothing was. Asks those whose centre is seen through
   /// the face; all of them if they are all seen through this `one_face`.
   ///
   /// A window is looked at through squares of pixels: of the largest edge 2^n that is no longer
   /// than its longer side, at each of its corners, inside it along that side.
   void keepInFront(const ChunkBoxes& boxes, int face, bool one_face,
                    std::array<std::uint64_t, kVoxelsPerChunk / 64>& voxels) const;
-  /// Whether the box, and every box in it, lies in front of what was drawn: that was everywhere.
-  bool isAllInFront(const CubeWindow& window, int level) const;
-  /// Whether the box, and every box in it, lies behind all that was drawn.
-  bool isAllBehind(const CubeWindow& window, int level) const;
+  /// Whether the box, and every box in it, lies behind all that was drawn, if any was: no voxel in
+  /// it is kept.
+  bool isAllBehind(const CubeWindow& window) const;
 
   /// Mean distance of adjacent beams [m] where a face is a depth [m] away; 0 if none pass it.
-  float spacing(int face, float depth) const { return faceAt(face).spacing * depth; }
+  float spacing(int face, float depth) const {
+    return faceAt(face).empty ? 0 : faceAt(face).spacing * depth;
+  }
 
  private:
   const DepthFace& faceAt(int face) const { return faces_[static_cast<std::size_t>(face)]; }
-  /// Whether `accept` holds for all pixels of a level that a window has.
-  template <class Accept>
-  bool holdsForAll(const DepthPyramid& pyramid, const CubeWindow& window, int level,
-                   const Accept& accept) const;
-
-  CubeGrid grid_;
+  CubeGrid grid_ = CubeGrid::forSpacing(1);
   std::array<DepthFace, CubeGrid::kFaces> faces_;
+  BeamProjections projections_;  ///< kept for the next scan
 };
 
 }  // namespace csom::detail

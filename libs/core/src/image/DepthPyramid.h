@@ -2,79 +2,92 @@
 // Inverse depths of the pixels of one face of a cube, and of ever larger squares of them.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
-#include <cstdlib>
-#include <memory>
-#include <new>
+#include <vector>
 
 namespace csom::detail {
 
-/// Zeros that take no memory until they are written to: most of a face is never drawn.
-class LazyZeros {
- public:
-  void allocate(std::size_t size) {
-    numbers_.reset(static_cast<float*>(std::calloc(size, sizeof(float))));
-    if (numbers_ == nullptr) throw std::bad_alloc();
-  }
-  bool empty() const { return numbers_ == nullptr; }
-  float* data() { return numbers_.get(); }
-  const float* data() const { return numbers_.get(); }
+/// Some pixels of a face: from the first ones up to the ends.
+struct PixelRectangle {
+  std::size_t first_u = 0, end_u = 0, first_v = 0, end_v = 0;
 
- private:
-  struct Free {
-    void operator()(float* numbers) const { std::free(numbers); }
-  };
-  std::unique_ptr<float[], Free> numbers_;
+  bool empty() const { return first_u >= end_u || first_v >= end_v; }
+  void add(const PixelRectangle& other) {
+    if (empty()) {
+      *this = other;
+      return;
+    }
+    first_u = std::min(first_u, other.first_u);
+    end_u = std::max(end_u, other.end_u);
+    first_v = std::min(first_v, other.first_v);
+    end_v = std::max(end_v, other.end_v);
+  }
 };
 
-/// Level after level, each half as wide as the one below. 0 is where nothing was drawn.
-class DepthPyramid {
+/// Levels of square images, row after row, one level after the other: zeros but for what is
+/// written. Memory is kept from scan to scan, and cleared where it was written.
+class ImageLevels {
  public:
-  void allocate(int side, int levels) {
-    side_ = static_cast<std::size_t>(side);
-    pixels_.allocate(offset(levels));
-  }
-  bool empty() const { return pixels_.empty(); }
+  /// How many pixels an edge has, from the lowest level up.
+  enum class Sides { Equal, Halved };
+  explicit ImageLevels(Sides sides) : halved_(sides == Sides::Halved) {}
 
+  void reset(int side, int levels) {
+    if (side == side_ && levels == levels_) {
+      for (int l = 0; l < levels; ++l) clear(l);
+      return;
+    }
+    side_ = side;
+    levels_ = levels;
+    pixels_.assign(offset(levels), 0);
+    written_ = {};
+  }
+  /// To be called before pixels of a level are written.
+  void willWrite(int level, const PixelRectangle& pixels) {
+    written_[static_cast<std::size_t>(level)].add(pixels);
+  }
+
+  std::size_t sideOf(int level) const {
+    return static_cast<std::size_t>(side_) >> (halved_ ? level : 0);
+  }
   float* level(int level) { return pixels_.data() + offset(level); }
   const float* level(int level) const { return pixels_.data() + offset(level); }
 
  private:
+  static constexpr std::size_t kMostLevels = 10;
+
   std::size_t offset(int level) const {
-    const std::size_t all = 4 * side_ * side_;
-    return (all - (all >> (2 * static_cast<unsigned>(level)))) / 3;
+    const std::size_t one = sideOf(0) * sideOf(0);
+    if (!halved_) return static_cast<std::size_t>(level) * one;
+    return (4 * one - (4 * one >> (2 * static_cast<unsigned>(level)))) / 3;
+  }
+  void clear(int level) {
+    PixelRectangle& written = written_[static_cast<std::size_t>(level)];
+    const std::size_t side = sideOf(level);
+    float* const pixels = this->level(level);
+    for (std::size_t v = written.first_v; v < written.end_v && !written.empty(); ++v)
+      std::fill(pixels + v * side + written.first_u, pixels + v * side + written.end_u, 0.0F);
+    written = {};
   }
 
-  LazyZeros pixels_;
-  std::size_t side_ = 0;
+  bool halved_;
+  int side_ = 0;
+  int levels_ = 0;
+  std::vector<float> pixels_;
+  std::array<PixelRectangle, kMostLevels> written_{};
 };
 
-/// Largest inverse depths of squares of 2^level pixels an edge, for each pixel at which one begins;
-/// of as much of it as lies in the image. Four of them, overlapping, cover any larger window.
-class SlidingMaxima {
- public:
-  void allocate(int side, int levels) {
-    side_ = static_cast<std::size_t>(side);
-    squares_.allocate(static_cast<std::size_t>(levels) * side_ * side_);
-  }
-  bool empty() const { return squares_.empty(); }
-
-  /// Row after row; levels lie one after the other.
-  float* level(int level) {
-    return squares_.data() + static_cast<std::size_t>(level) * side_ * side_;
-  }
-  const float* all() const { return squares_.data(); }
-
- private:
-  LazyZeros squares_;
-  std::size_t side_ = 0;
-};
-
-/// What is known about the pixels of one face. Empty if nothing was drawn.
+/// What is known about the pixels of one face: inverse depths, 0 where nothing was drawn.
 struct DepthFace {
-  SlidingMaxima nearest;  ///< the largest of what was drawn
-  DepthPyramid complete;  ///< the same; 0 if not all was drawn
-  DepthPyramid farthest;  ///< the smallest of what was drawn
+  bool empty = true;  ///< nothing was drawn, and nothing below is set
+  /// The largest of squares of 2^level pixels an edge, for each pixel at which one begins; of as
+  /// much of it as lies in the image. Four of them, overlapping, cover any larger window.
+  ImageLevels nearest{ImageLevels::Sides::Equal};
+  /// The smallest of what was drawn, each level of four pixels of the one below, the first one of
+  /// the lowest level of `nearest`. Level 0 is not used.
+  ImageLevels farthest{ImageLevels::Sides::Halved};
   /// Mean distance of adjacent beams at a depth of 1, along the wider side of what was drawn.
   float spacing = 0;
 };

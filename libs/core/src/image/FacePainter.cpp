@@ -21,8 +21,10 @@ constexpr std::size_t kGapPixels = 4;
 
 }  // namespace
 
-BeamProjections::BeamProjections(const ImageBeams& beams, int threads)
-    : face(beams.size()), u(beams.size()), v(beams.size()), inverse(beams.size()) {
+void BeamProjections::compute(const ImageBeams& beams, int threads) {
+  face.resize(beams.size());
+  for (std::vector<float>* numbers : {&u, &v, &inverse}) numbers->resize(beams.size());
+  for (std::vector<BeamId>& of_face : quads) of_face.clear();
   parallelRanges(beams.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::array<float, 3> p{beams.x[i], beams.y[i], beams.z[i]};
@@ -68,13 +70,14 @@ FacePainter::Plane FacePainter::flat(float inverse) {
 }
 
 void FacePainter::run() {
+  out_.empty = true;
   const BeamNeighbours& n = beams_.neighbours;
   for (const BeamId quad : projections_.quads[static_cast<std::size_t>(face_)]) {
     const auto a = static_cast<std::size_t>(quad);
     const auto above = static_cast<std::size_t>(n.above[a]);
     draw({a, static_cast<std::size_t>(n.next[a]), above, static_cast<std::size_t>(n.next[above])});
   }
-  if (out_.nearest.empty()) return;
+  if (out_.empty) return;
   out_.spacing = static_cast<float>(spacings_ / drawings_);
   closeGaps();
   buildPyramids();
@@ -189,16 +192,16 @@ void FacePainter::fillTriangle(const Triangle& t, const Plane& plane) {
 
 /// Makes room when the first quadrilateral comes, and notes where they lie.
 void FacePainter::prepare(const PixelBox& box) {
-  if (image_ == nullptr) {
+  if (out_.empty) {
+    out_.empty = false;
     side_ = static_cast<std::size_t>(grid_.side());
-    out_.nearest.allocate(grid_.side(), grid_.levels() - 1);
+    out_.nearest.reset(grid_.side(), grid_.levels() - 1);
     image_ = out_.nearest.level(0);
-    drawn_ = {side_, 0, side_, 0};
   }
-  drawn_.first_u = std::min(drawn_.first_u, static_cast<std::size_t>(box.first_u));
-  drawn_.end_u = std::max(drawn_.end_u, static_cast<std::size_t>(box.last_u) + 1);
-  drawn_.first_v = std::min(drawn_.first_v, static_cast<std::size_t>(box.first_v));
-  drawn_.end_v = std::max(drawn_.end_v, static_cast<std::size_t>(box.last_v) + 1);
+  const PixelRectangle pixels{
+      static_cast<std::size_t>(box.first_u), static_cast<std::size_t>(box.last_u) + 1,
+      static_cast<std::size_t>(box.first_v), static_cast<std::size_t>(box.last_v) + 1};
+  drawn_.add(pixels);
 }
 
 void FacePainter::put(int u, int v, float inverse) {
@@ -228,6 +231,7 @@ void closeLine(const float* before, std::size_t stride, std::size_t size, float*
 /// Gives gaps of up to kGapPixels between drawn pixels of a row or a column the depth of the nearer
 /// end: single beams that got lost, and slivers where beams of two rows do not face.
 void FacePainter::closeGaps() {
+  out_.nearest.willWrite(0, drawn_);
   const std::size_t width = drawn_.end_u - drawn_.first_u;
   const std::size_t height = drawn_.end_v - drawn_.first_v;
   float* const first = image_ + drawn_.first_v * side_ + drawn_.first_u;
@@ -241,18 +245,9 @@ void FacePainter::closeGaps() {
 }
 
 void FacePainter::buildPyramids() {
-  for (DepthPyramid* pyramid : {&out_.complete, &out_.farthest}) {
-    pyramid->allocate(grid_.side(), grid_.levels());
-    for (std::size_t v = drawn_.first_v; v < drawn_.end_v; ++v)
-      std::copy(image_ + v * side_ + drawn_.first_u, image_ + v * side_ + drawn_.end_u,
-                pyramid->level(0) + v * side_ + drawn_.first_u);
-  }
   for (int level = 1; level < grid_.levels() - 1; ++level) slide(level);
+  out_.farthest.reset(grid_.side(), grid_.levels());
   for (int level = 1; level < grid_.levels(); ++level) {
-    shrink(out_.complete, level, [](float a, float b) {
-      const float larger = a > b ? a : b;
-      return a == 0 || b == 0 ? 0 : larger;
-    });
     shrink(out_.farthest, level, [](float a, float b) {
       const float smaller = a < b ? a : b;
       const float larger = a > b ? a : b;
@@ -263,16 +258,17 @@ void FacePainter::buildPyramids() {
 
 /// Makes each pixel of a level of four of the level below it, where anything was drawn.
 template <class Choose>
-void FacePainter::shrink(DepthPyramid& pyramid, int level, const Choose& choose) const {
-  const std::size_t side = side_ >> level;
-  const float* const from = pyramid.level(level - 1);
-  float* const to = pyramid.level(level);
-  const std::size_t end_u = ((drawn_.end_u - 1) >> level) + 1;
-  const std::size_t end_v = ((drawn_.end_v - 1) >> level) + 1;
-  for (std::size_t v = drawn_.first_v >> level; v < end_v; ++v) {
+void FacePainter::shrink(ImageLevels& levels, int level, const Choose& choose) const {
+  const std::size_t side = levels.sideOf(level);
+  const float* const from = level == 1 ? image_ : levels.level(level - 1);
+  float* const to = levels.level(level);
+  const PixelRectangle pixels{drawn_.first_u >> level, ((drawn_.end_u - 1) >> level) + 1,
+                              drawn_.first_v >> level, ((drawn_.end_v - 1) >> level) + 1};
+  levels.willWrite(level, pixels);
+  for (std::size_t v = pixels.first_v; v < pixels.end_v; ++v) {
     const float* const upper = from + 4 * v * side;
     const float* const lower = upper + 2 * side;
-    for (std::size_t u = drawn_.first_u >> level; u < end_u; ++u)
+    for (std::size_t u = pixels.first_u; u < pixels.end_u; ++u)
       to[v * side + u] =
           choose(choose(upper[2 * u], upper[2 * u + 1]), choose(lower[2 * u], lower[2 * u + 1]));
   }
@@ -284,14 +280,16 @@ void FacePainter::slide(int level) {
   const float* const from = out_.nearest.level(level - 1);
   float* const to = out_.nearest.level(level);
   const auto first = [&](std::size_t pixel) { return pixel - std::min(pixel, 2 * half - 1); };
-  const std::size_t first_u = first(drawn_.first_u);
+  const PixelRectangle pixels{first(drawn_.first_u), drawn_.end_u, first(drawn_.first_v),
+                              drawn_.end_v};
+  out_.nearest.willWrite(level, pixels);
   // Beyond the image, and beyond what was drawn, is nothing: the square itself instead.
   const std::size_t both_u = std::min(drawn_.end_u, side_ - std::min(side_, half));
-  for (std::size_t v = first(drawn_.first_v); v < drawn_.end_v; ++v) {
+  for (std::size_t v = pixels.first_v; v < pixels.end_v; ++v) {
     const float* const upper = from + v * side_;
     const float* const lower = v + half < drawn_.end_v ? upper + half * side_ : upper;
     float* const row = to + v * side_;
-    std::size_t u = first_u;
+    std::size_t u = pixels.first_u;
     for (; u < both_u; ++u)
       row[u] = std::max(std::max(upper[u], upper[u + half]), std::max(lower[u], lower[u + half]));
     for (; u < drawn_.end_u; ++u) row[u] = std::max(upper[u], lower[u]);

@@ -16,7 +16,7 @@ namespace csom::detail {
 
 /// Where beams pass the cube.
 struct BeamProjections {
-  BeamProjections(const ImageBeams& beams, int threads);
+  void compute(const ImageBeams& beams, int threads);
 
   /// Each beam on the face that it passes: u, v and the inverse of the depth.
   std::vector<std::uint8_t> face;
@@ -50,10 +50,6 @@ class FacePainter {
     int first_u, last_u, first_v, last_v;
   };
   struct Plane;
-  /// Of the pixels that were drawn.
-  struct Rectangle {
-    std::size_t first_u, end_u, first_v, end_v;
-  };
 
   void draw(const Corners& corners);
   Projection project(std::size_t beam) const;
@@ -72,7 +68,7 @@ class FacePainter {
   void closeGaps();
   void buildPyramids();
   template <class Choose>
-  void shrink(DepthPyramid& pyramid, int level, const Choose& choose) const;
+  void shrink(ImageLevels& levels, int level, const Choose& choose) const;
   void slide(int level);
 
   const CubeGrid& grid_;
@@ -84,7 +80,7 @@ class FacePainter {
   DepthFace& out_;
   float* image_ = nullptr;  ///< the lowest level of what is drawn
   std::size_t side_ = 0;
-  Rectangle drawn_{};
+  PixelRectangle drawn_;
   double spacings_ = 0;
   double drawings_ = 0;
 };

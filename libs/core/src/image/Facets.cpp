@@ -79,8 +79,9 @@ class SegmentTest {
 
 }  // namespace
 
-Facets::Facets(const ImageBeams& beams, const Options& options)
-    : to_next(beams.size()), to_above(beams.size()) {
+void Facets::find(const ImageBeams& beams, const Options& options) {
+  to_next.resize(beams.size());
+  to_above.resize(beams.size());
   const SegmentTest test(beams, Limits(static_cast<float>(options.resolution)));
   const BeamNeighbours& n = beams.neighbours;
   parallelRanges(beams.size(), options.threads, [&](std::size_t begin, std::size_t end) {

@@ -25,7 +25,7 @@ namespace csom::detail {
 ///
 /// Beams that ended in class 0, free, have no surface.
 struct Facets {
-  Facets(const ImageBeams& beams, const Options& options);
+  void find(const ImageBeams& beams, const Options& options);
 
   std::vector<std::uint8_t> to_next;  ///< of each beam: whether the segment to it is surface
   std::vector<std::uint8_t> to_above;

@@ -17,9 +17,9 @@ ClassId likeliest(const float* scores, int classes) {
 
 }  // namespace
 
-ImageBeams::ImageBeams(const PreparedScan& scan, const Options& options)
-    : neighbours(scan.image_points.image, options.threads) {
+void ImageBeams::read(const PreparedScan& scan, const Options& options) {
   const ImagePoints& in = scan.image_points;
+  neighbours.find(in.image, options.threads);
   const Grid grid(options.resolution);
   base = voxelOfChunk(chunkOf(grid.voxelAt(scan.origin)), 0);
   const auto positionOf = [&](const Eigen::Vector3d& in_map) -> HalfStepPosition {

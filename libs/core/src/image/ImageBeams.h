@@ -24,15 +24,15 @@ struct HalfStepPosition {
 
 /// Beams in the order of the image, an array for each property.
 struct ImageBeams {
-  ImageBeams(const PreparedScan& scan, const Options& options);
+  void read(const PreparedScan& scan, const Options& options);
 
   std::size_t size() const { return x.size(); }
   /// Where a beam ended, from the sensor [m].
   BeamVector end(std::size_t beam) const { return {x[beam], y[beam], z[beam]}; }
 
   BeamNeighbours neighbours;
-  VoxelIndex base;  ///< of the positions: lower corner of a chunk
-  HalfStepPosition sensor;
+  VoxelIndex base{};  ///< of the positions: lower corner of a chunk
+  HalfStepPosition sensor{};
   std::vector<float> x, y, z;               ///< from the sensor [m]
   std::vector<ClassId> label;               ///< the likeliest class of a soft label
   std::vector<HalfStepPosition> positions;  ///< of all points of the scan, in its order

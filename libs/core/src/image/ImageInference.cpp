@@ -36,10 +36,17 @@ struct ChunkSource {
 
 class ImageInference {
  public:
-  ImageInference(const PreparedScan& scan, const Options& options)
-      : scan_(scan), options_(options), beams_(scan, options), facets_(beams_, options) {}
+  ImageInference(const PreparedScan& scan, const Options& options, ImageMemory& memory)
+      : scan_(scan),
+        options_(options),
+        beams_(memory.beams),
+        facets_(memory.facets),
+        parts_(memory.parts),
+        cube_(memory.cube) {}
 
   ScanIncrements run(ScanReport& report) {
+    beams_.read(scan_, options_);
+    facets_.find(beams_, options_);
     vote();
     findFree();
     const std::vector<ChunkSource> sources = sortedSources();
@@ -75,6 +82,7 @@ class ImageInference {
     parts_.resize(count);
     parallelRanges(count, options_.threads, [&](std::size_t first, std::size_t last) {
       for (std::size_t part = first; part < last; ++part) {
+        parts_[part].clear();
         addHits(scan_, beams_, options_, partBegin(points, part, count),
                 partBegin(points, part + 1, count), parts_[part]);
         addFacets(beams_, facets_, options_, partBegin(beams_.size(), part, count),
@@ -85,8 +93,10 @@ class ImageInference {
 
   void findFree() {
     ScanReport with_surfaces;  // not what the caller's report counts
-    if (options_.free_space.mode == FreeSpace::Projective)
-      free_ = findFreeSpace(beams_, DepthCube(beams_, facets_, options_), options_);
+    if (options_.free_space.mode == FreeSpace::Projective) {
+      cube_.draw(beams_, facets_, options_);
+      free_ = findFreeSpace(beams_, cube_, options_);
+    }
     if (options_.free_space.mode == FreeSpace::Raycast)
       free_ = castFreeSpace(scan_, options_, with_surfaces);
   }
@@ -153,17 +163,18 @@ class ImageInference {
 
   const PreparedScan& scan_;
   const Options& options_;
-  ImageBeams beams_;
-  Facets facets_;
-  std::vector<VoxelWords> parts_;
+  ImageBeams& beams_;
+  Facets& facets_;
+  std::vector<VoxelWords>& parts_;
+  DepthCube& cube_;
   ScanIncrements free_;
 };
 
 }  // namespace
 
-ScanIncrements inferFromImage(const PreparedScan& scan, const Options& options,
-                              ScanReport& report) {
-  return ImageInference(scan, options).run(report);
+ScanIncrements inferFromImage(const PreparedScan& scan, const Options& options, ScanReport& report,
+                              ImageMemory& memory) {
+  return ImageInference(scan, options, memory).run(report);
 }
 
 }  // namespace csom::detail

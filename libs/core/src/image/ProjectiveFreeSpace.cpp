@@ -92,7 +92,7 @@ class FreeSpaceSearch {
   void search(const Node& node, ScanIncrements& out) const {
     const CubeWindows windows = cube_.grid().windowsOf(boxOf(node));
     if (std::all_of(windows.begin(), windows.end(),
-                    [&](const CubeWindow& window) { return isAllBehind(window); }))
+                    [&](const CubeWindow& window) { return cube_.isAllBehind(window); }))
       return;
     if (node.level == 0) {
       searchChunk(node, windows, out);
@@ -104,37 +104,13 @@ class FreeSpaceSearch {
           search({node.level - 1, 2 * node.x + x, 2 * node.y + y, 2 * node.z + z}, out);
   }
 
-  /// With the pixels beside it that may be looked at for a voxel.
-  CubeWindow surrounded(const CubeWindow& window) const {
-    const int last = cube_.grid().side() - 1;
-    const int pixels = window.nearest > 0
-                           ? cube_.grid().mostPixels(2 * kHalfEdge * resolution_, window.nearest)
-                           : last;
-    CubeWindow larger = window;
-    larger.first_u = std::max(window.first_u - pixels, 0);
-    larger.last_u = std::min(window.last_u + pixels, last);
-    larger.first_v = std::max(window.first_v - pixels, 0);
-    larger.last_v = std::min(window.last_v + pixels, last);
-    return larger;
-  }
-  bool isAllBehind(const CubeWindow& window) const {
-    const CubeWindow larger = surrounded(window);
-    return cube_.isAllBehind(larger, cube_.grid().levelOf(larger));
-  }
-  bool isAllInFront(const CubeWindow& window) const {
-    const CubeWindow larger = surrounded(window);
-    return cube_.isAllInFront(larger, cube_.grid().levelOf(larger));
-  }
-
   void searchChunk(const Node& node, const CubeWindows& windows, ScanIncrements& out) const {
     FreeIncrements free{{}, countAt(windows)};
     free.voxels.fill(~std::uint64_t{0});
     const bool one_face = windows.size() == 1;
-    if (!one_face || !isAllInFront(*windows.begin())) {
-      const ChunkBoxes boxes = boxesOf(node);
-      for (const CubeWindow& window : windows)
-        cube_.keepInFront(boxes, window.face, one_face, free.voxels);
-    }
+    const ChunkBoxes boxes = boxesOf(node);
+    for (const CubeWindow& window : windows)
+      cube_.keepInFront(boxes, window.face, one_face, free.voxels);
     const bool any = std::any_of(free.voxels.begin(), free.voxels.end(),
                                  [](std::uint64_t word) { return word != 0; });
     if (any) out.push_back({{base_.x + node.x, base_.y + node.y, base_.z + node.z}, {}, free});

@@ -14,12 +14,22 @@ VoxelWords::Slot& VoxelWords::slotOf(std::uint64_t key) {
 
 VoxelWords::Cells* VoxelWords::newCells(std::uint64_t key) {
   constexpr std::size_t kBlock = 64;
-  const std::size_t in_block = chunks_.size() % kBlock;
-  if (in_block == 0) blocks_.push_back(std::make_unique<Cells[]>(kBlock));  // zeros
-  Cells* const cells = &blocks_.back()[in_block];
+  const std::size_t block = chunks_.size() / kBlock;
+  if (block == blocks_.size()) blocks_.push_back(std::make_unique<Cells[]>(kBlock));  // zeros
+  Cells* const cells = &blocks_[block][chunks_.size() % kBlock];
   cells->key = key;
   chunks_.push_back(cells);
   return cells;
+}
+
+void VoxelWords::clear() {
+  for (Cells* cells : chunks_) cells->cell.fill(0);
+  chunks_.clear();
+  std::fill(slots_.begin(), slots_.end(), Slot{0, nullptr});
+  recent_ = {};
+  tallies_.clear();
+  last_key_ = ~std::uint64_t{0};
+  last_ = nullptr;
 }
 
 void VoxelWords::select(std::uint64_t key) {

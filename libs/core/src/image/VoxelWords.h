@@ -42,6 +42,8 @@ class VoxelWords {
     raise(cellAt(x, y, z), (weight << 8U) | (0xffU - class_id));
   }
 
+  void clear();
+
   /// In the order in which they came.
   std::size_t chunkCount() const { return chunks_.size(); }
   const Cells& chunk(std::size_t i) const { return *chunks_[i]; }
@@ -92,7 +94,7 @@ class VoxelWords {
   Cells* newCells(std::uint64_t key);
 
   std::vector<Cells*> chunks_;
-  std::vector<std::unique_ptr<Cells[]>> blocks_;  ///< that they lie in
+  std::vector<std::unique_ptr<Cells[]>> blocks_;  ///< that they lie in, kept when cleared
   std::vector<Slot> slots_;                       ///< by the hash of the key
   std::array<Slot, kRecent> recent_{};
   std::vector<Tally> tallies_;

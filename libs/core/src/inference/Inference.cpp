@@ -14,10 +14,13 @@ const MethodEntry& entryOf(Method method) {
   return *entry;
 }
 
-ScanIncrements inferIncrements(const PreparedScan& scan, const Options& options,
-                               ScanReport& report) {
-  if (scan.blocks.empty() && scan.image_points.points.empty()) return {};
-  ScanIncrements increments = entryOf(options.method).infer(scan, options, report);
+ScanIncrements inferIncrements(const PreparedScan& scan, const Options& options, ScanReport& report,
+                               ImageMemory& memory) {
+  ScanIncrements increments;
+  if (!scan.image_points.points.empty())
+    increments = inferFromImage(scan, options, report, memory);
+  else if (!scan.blocks.empty())
+    increments = entryOf(options.method).infer(scan, options, report);
   increments.erase(std::remove_if(increments.begin(), increments.end(),
                                   [](const ChunkIncrements& chunk) { return chunk.empty(); }),
                    increments.end());

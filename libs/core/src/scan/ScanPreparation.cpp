@@ -12,6 +12,7 @@
 #include "scan/CellKeys.h"
 #include "scan/DownSampling.h"
 #include "scan/PointSet.h"
+#include "scan/PrepareInto.h"
 #include "util/Parallel.h"
 
 namespace csom {
@@ -88,7 +89,7 @@ bool validScores(const float* scores, int classes) {
 
 class Preparation {
  public:
-  Preparation(const Scan& scan, const Options& options, ScanReport& report)
+  Preparation(const Scan& scan, const Options& options, ScanReport& report, PreparedScan& out)
       : scan_(scan),
         options_(options),
         report_(report),
@@ -102,18 +103,23 @@ class Preparation {
                                        ? std::min(options.scan.max_range, longest_beam_)
                                        : longest_beam_) *
                           (1 - kMargin)),
-        plain_reach_(plainReach()) {}
+        plain_reach_(plainReach()),
+        out_(out) {}
 
-  PreparedScan run() {
+  void run() {
+    clear();
     out_.layout =
         BlockLayout(detail::entryOf(options_.method).block_is_voxel ? 1 : options_.block_depth);
     out_.origin = scan_.origin;
     report_.points += scan_.points.size();
     if (usesImage()) {
       takeImage();
-      return std::move(out_);
+      return;
     }
-    PointSet hits = detail::downSample(accept(), scan_.origin, options_);
+    PointSet accepted;
+    accept(accepted);
+    if (options_.castsRays()) recordHits(accepted);
+    PointSet hits = detail::downSample(std::move(accepted), scan_.origin, options_);
     report_.training_points += hits.points.size();
     if (!hits.points.empty()) {
       if (options_.castsRays()) recordBeams(hits);
@@ -121,23 +127,39 @@ class Preparation {
         appendFreePoints(hits, detail::downSample(sampleFreeSpace(hits), scan_.origin, options_));
       bin(hits);
     }
-    return std::move(out_);
   }
 
  private:
-  bool usesImage() const {
-    return !scan_.image.empty() && options_.usesImages();
+  bool usesImage() const { return !scan_.image.empty() && options_.usesImages(); }
+
+  void clear() {
+    out_.points.clear();
+    out_.scores.clear();
+    out_.blocks.clear();
+    out_.block_begin.clear();
+    out_.beam_ends.clear();
+    out_.hit_voxels.clear();
+    out_.image_points.image = {std::move(out_.image_points.image.pixels), 1, 0};
+    out_.image_points.image.pixels.clear();
+    out_.image_points.points.clear();
+    out_.image_points.labels.clear();
+    out_.image_points.scores.clear();
   }
 
   void takeImage() {
-    PointSet accepted = accept();
+    ImagePoints& to = out_.image_points;
+    PointSet accepted{std::move(to.points), std::move(to.labels), std::move(to.scores),
+                      std::move(to.image.pixels)};
+    accept(accepted);
     report_.training_points += accepted.points.size();
-    if (options_.free_space.mode == FreeSpace::Raycast) recordBeams(accepted);
-    out_.image_points.image = {std::move(accepted.pixels), scan_.image.column_step,
-                               scan_.image.columns_of_turn};
-    out_.image_points.points = std::move(accepted.points);
-    out_.image_points.labels = std::move(accepted.labels);
-    out_.image_points.scores = std::move(accepted.scores);
+    if (options_.free_space.mode == FreeSpace::Raycast) {
+      recordHits(accepted);
+      recordBeams(accepted);
+    }
+    to.image = {std::move(accepted.pixels), scan_.image.column_step, scan_.image.columns_of_turn};
+    to.points = std::move(accepted.points);
+    to.labels = std::move(accepted.labels);
+    to.scores = std::move(accepted.scores);
   }
 
   Eigen::Vector3d inMap(const Eigen::Vector3f& point) const {
@@ -197,7 +219,8 @@ class Preparation {
     return std::numeric_limits<double>::infinity();
   }
 
-  PointSet accept() {
+  /// Into `accepted`, whose memory is used again.
+  void accept(PointSet& accepted) {
     constexpr std::uint8_t kAccepted = kRejectReasons;
     std::vector<std::uint8_t> reasons(scan_.points.size());
     std::atomic<std::size_t> rejected{0};
@@ -211,7 +234,10 @@ class Preparation {
                              }
                              rejected += rejected_here;
                            });
-    PointSet accepted{scan_.points, scan_.labels, scan_.scores, {}};
+    accepted.points = scan_.points;
+    accepted.labels = scan_.labels;
+    accepted.scores = scan_.scores;
+    accepted.pixels.clear();
     if (usesImage()) accepted.pixels = scan_.image.pixels;
     if (rejected > 0) {
       const auto classes = static_cast<std::size_t>(options_.number_of_classes);
@@ -239,8 +265,6 @@ class Preparation {
         accepted.labels.resize(kept);
       }
     }
-    if (options_.castsRays()) recordHits(accepted);
-    return accepted;
   }
 
   void recordHits(const PointSet& accepted) {
@@ -376,7 +400,7 @@ class Preparation {
   double nearest_squared_;
   double farthest_squared_;
   double plain_reach_;
-  PreparedScan out_;
+  PreparedScan& out_;
 };
 
 }  // namespace
@@ -388,8 +412,15 @@ double scanReach(const Options& options) {
 }
 
 PreparedScan prepareScan(const Scan& scan, const Options& options, ScanReport& report) {
+  PreparedScan out;
+  detail::prepareScan(scan, options, report, out);
+  return out;
+}
+
+void detail::prepareScan(const Scan& scan, const Options& options, ScanReport& report,
+                         PreparedScan& out) {
   checkSizes(scan, options.number_of_classes);
-  return Preparation(scan, options, report).run();
+  Preparation(scan, options, report, out).run();
 }
 
 }  // namespace csom

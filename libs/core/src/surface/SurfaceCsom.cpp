@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include "image/ImageInference.h"
 #include "inference/ChunkTasks.h"
 #include "inference/ClassMass.h"
 #include "inference/Counts.h"
@@ -257,7 +256,6 @@ class SurfaceInference {
 
 ScanIncrements inferSurfaceCsom(const PreparedScan& scan, const Options& options,
                                 ScanReport& report) {
-  if (!scan.image_points.image.empty()) return inferFromImage(scan, options, report);
   return SurfaceInference(scan, options).run(report);
 }
 

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -30,6 +31,29 @@ struct Neighbour {
   double distance = 0;  ///< from the query point to the voxel's centre [m]
   ClassId class_id = kFreeClass;
 };
+
+namespace detail {
+
+struct InsertionMemory;
+
+/// What an insertion takes its temporary memory from, so that the next one need not ask the system
+/// for it again. Copies of a map begin without.
+class InsertionMemoryOfMap {
+ public:
+  InsertionMemoryOfMap() = default;
+  InsertionMemoryOfMap(const InsertionMemoryOfMap&) {}
+  InsertionMemoryOfMap(InsertionMemoryOfMap&&) = default;
+  InsertionMemoryOfMap& operator=(const InsertionMemoryOfMap&) { return *this; }
+  InsertionMemoryOfMap& operator=(InsertionMemoryOfMap&&) = default;
+  ~InsertionMemoryOfMap() = default;
+
+  InsertionMemory& get();
+
+ private:
+  std::shared_ptr<InsertionMemory> memory_;
+};
+
+}  // namespace detail
 
 /// A continuous semantic occupancy map: the sum of the increments of its scans.
 ///
@@ -109,6 +133,7 @@ class SemanticMap {
   Options options_;
   Grid grid_;
   ChunkStore store_;
+  detail::InsertionMemoryOfMap memory_;
 };
 
 // ---------------------------------------------------------------------------------------------
