@@ -54,7 +54,12 @@ class NaiveOracle {
     } else {
       infer(training);
     }
-    if (o_.free_space.mode == FreeSpace::Raycast) castRays(raw, hits, scan.origin);
+    if (o_.free_space.mode == FreeSpace::Raycast)
+      castRays(raw, hits, scan.origin, o_.free_space.weight);
+    if (o_.free_space.mode == FreeSpace::Projective) {
+      boundWords();
+      castRays(raw, hits, scan.origin, 1638.0 / 4096);
+    }
     return mass_;
   }
 
@@ -243,9 +248,29 @@ class NaiveOracle {
     }
   }
 
+  /// No voxel has more than 1 of one scan; the library does it with rounded counts.
+  void boundWords() {
+    for (auto& [voxel, mass] : mass_) {
+      double all = 0;
+      for (const double m : mass) all += m;
+      if (all > 1)
+        for (double& m : mass) m /= all;
+    }
+  }
+  /// Whether the scan itself sees more surface than free space there, with projective free space.
+  bool isSurface(const Cell& voxel) {
+    const auto found = mass_.find(voxel);
+    if (o_.free_space.mode != FreeSpace::Projective || found == mass_.end()) return false;
+    double difference = -found->second[0];
+    for (std::size_t k = 1; k < classes_; ++k) difference += found->second[k];
+    const double roundings = static_cast<double>(classes_) / 4096 + 1e-4;
+    if (std::abs(difference) < roundings) undecided_.insert(voxel);
+    return difference > 0;
+  }
+
   /// Voxels between consecutive crossings of grid planes, found at the middle of each piece.
   void castRays(const std::vector<Point>& raw, const std::vector<Point>& hits,
-                const Eigen::Vector3d& origin) {
+                const Eigen::Vector3d& origin, double weight) {
     std::set<Cell> hit_voxels;
     for (const Point& p : raw) hit_voxels.insert(cellOf(p.xyz, o_.resolution));
     std::set<Cell> crossed;
@@ -269,7 +294,7 @@ class NaiveOracle {
     Vector free(classes_, 0.0);
     free[0] = 1;
     for (const Cell& voxel : crossed) {
-      if (hit_voxels.count(voxel) == 0) add(voxel, free, o_.free_space.weight);
+      if (hit_voxels.count(voxel) == 0 && !isSurface(voxel)) add(voxel, free, weight);
     }
   }
 

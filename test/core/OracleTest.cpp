@@ -43,8 +43,10 @@ TEST_P(Oracle, AgreesWithinOneQuantum) {
       const double sum = std::accumulate(found->second.begin(), found->second.end(), 0.0);
       for (int k = 0; k < options.number_of_classes; ++k) {
         const double mass = found->second[static_cast<std::size_t>(k)];
-        // Two sources may fill one voxel (kernels and crossing beams), each rounded once.
-        const double roundings = options.free_space.mode == FreeSpace::Raycast && k == 0 ? 2 : 1;
+        // Two sources may fill one voxel (kernels and crossing beams), each rounded once; what is
+        // bounded is rounded again.
+        const bool bounded = options.free_space.mode == FreeSpace::Projective;
+        const double roundings = (options.castsRays() && k == 0 ? 2 : 1) + (bounded ? 1 : 0);
         ASSERT_NEAR(voxel.evidence(static_cast<ClassId>(k)), mass,
                     roundings * kCountQuantum + 1e-5 * mass + of_voxel * sum)
             << "voxel " << v.x << ' ' << v.y << ' ' << v.z << " class " << k;

@@ -57,7 +57,8 @@ TEST_P(Properties, NumberOfThreadsDoesNotMatter) {
 
 TEST_P(Properties, NumberOfThreadsDoesNotMatterForAWideScan) {
   // Hundreds of chunks, so that the work is really divided.
-  for (const FreeSpace free_space : {FreeSpace::None, FreeSpace::Sampled, FreeSpace::Raycast}) {
+  for (const FreeSpace free_space :
+       {FreeSpace::None, FreeSpace::Sampled, FreeSpace::Raycast, FreeSpace::Projective}) {
     RandomCase random(99);
     Options options;
     options.method = GetParam();
@@ -178,7 +179,7 @@ TEST(RedundantVoxelFilter, FillsASubset) {
     Options on = random.options(Method::SeeCsom);
     on.see_csom.rvfm = true;
     // A crossed voxel is known with or without the filter: leave beams out of the comparison.
-    if (on.free_space.mode == FreeSpace::Raycast) on.free_space.mode = FreeSpace::None;
+    if (on.castsRays()) on.free_space.mode = FreeSpace::None;
     Options off = on;
     off.see_csom.rvfm = false;
     const Scan scan = random.scan(on, 100);

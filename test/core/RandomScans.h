@@ -49,7 +49,10 @@ class RandomCase {
     o.free_space.mode = oneOf<FreeSpace>({FreeSpace::None, FreeSpace::Sampled, FreeSpace::Raycast});
     o.free_space.resolution = real(0.2, 0.6);
     o.free_space.weight = real(0.05, 1.0);
-    if (method == Method::SurfaceCsom) randomizeSurfaces(o);
+    if (method == Method::SurfaceCsom) {
+      randomizeSurfaces(o);
+      if (integer(0, 3) == 0) o.free_space.mode = FreeSpace::Projective;
+    }
     if (integer(0, 2) == 0) o.kernel.length = o.resolution * real(0.5, 6);
     if (integer(0, 2) == 0) o.kernel.length_min = o.resolution * real(0.5, 4);
     return o;

@@ -118,7 +118,8 @@ TEST(Threads, MayEachHaveACopyOfAMapThatIsGone) {
 class ThreadsOfAnInsertion : public testing::TestWithParam<Method> {};
 
 TEST_P(ThreadsOfAnInsertion, DoNotMeet) {
-  for (const FreeSpace free_space : {FreeSpace::None, FreeSpace::Sampled, FreeSpace::Raycast}) {
+  for (const FreeSpace free_space :
+       {FreeSpace::None, FreeSpace::Sampled, FreeSpace::Raycast, FreeSpace::Projective}) {
     Options options = someOptions();
     options.method = GetParam();
     options.free_space.mode = free_space;

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "inference/BoundedWords.h"
+#include "inference/Counts.h"
 #include "inference/FreeSpaceRays.h"
 #include "inference/Inference.h"
 #include "scan/PrepareInto.h"
@@ -64,17 +66,29 @@ ScanReport SemanticMap::insert(const Scan& scan) {
     PreparedScan& prepared = memory.prepared;
     detail::prepareScan(scan, options_, report, prepared);
     report.prepare_ms = watch.lap();
-    const ScanIncrements kernel_mass =
-        detail::inferIncrements(prepared, options_, report, memory.image);
-    const ScanIncrements free_space = prepared.image_points.image.empty()
-                                          ? detail::castFreeSpace(prepared, options_, report)
-                                          : ScanIncrements{};
+    ScanIncrements kernel_mass = detail::inferIncrements(prepared, options_, report, memory.image);
+    ScanIncrements free_space;
+    if (prepared.image_points.image.empty())
+      free_space = castFreeSpace(prepared, kernel_mass, report);
     report.infer_ms = watch.lap();
     store_.add(kernel_mass, options_.threads);
     store_.add(free_space, options_.threads);
     report.commit_ms = watch.lap();
   });
   return report;
+}
+
+/// Of a scan without an image. Where free space is projective, so that its word is bounded, that of
+/// surfaces is as well.
+ScanIncrements SemanticMap::castFreeSpace(const PreparedScan& scan, ScanIncrements& surfaces,
+                                          ScanReport& report) const {
+  if (options_.free_space.mode != FreeSpace::Projective || !options_.usesImages())
+    return detail::castFreeSpace(scan, options_, detail::toCount(options_.free_space.weight),
+                                 report);
+  detail::boundWords(surfaces);
+  ScanIncrements free = detail::castFreeSpace(scan, options_, detail::kWordOfBeams, report);
+  detail::keepSurfaces(surfaces, free);
+  return free;
 }
 
 void SemanticMap::merge(const SemanticMap& other) {

@@ -14,6 +14,7 @@
 #include "image/ImageBeams.h"
 #include "image/ProjectiveFreeSpace.h"
 #include "image/VoxelWords.h"
+#include "inference/Counts.h"
 #include "inference/FreeSpaceRays.h"
 #include "util/Parallel.h"
 #include "util/Parts.h"
@@ -98,7 +99,7 @@ class ImageInference {
       free_ = findFreeSpace(beams_, cube_, options_);
     }
     if (options_.free_space.mode == FreeSpace::Raycast)
-      free_ = castFreeSpace(scan_, options_, with_surfaces);
+      free_ = castFreeSpace(scan_, options_, toCount(options_.free_space.weight), with_surfaces);
   }
 
   /// As VoxelWords has it.

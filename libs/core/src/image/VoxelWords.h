@@ -3,7 +3,6 @@
 #pragma once
 
 #include <csom/core/CountIncrements.h>
-#include <csom/core/DirichletVoxel.h>
 #include <csom/core/Grid.h>
 
 #include <array>
@@ -11,13 +10,11 @@
 #include <memory>
 #include <vector>
 
+#include "inference/BoundedWords.h"
 #include "util/ChunkKey.h"
 
 namespace csom::detail {
 
-/// The word of a whole scan about a voxel in which a beam ended, however many did [quanta].
-constexpr std::uint32_t kFullWord = 4096;
-static_assert(kFullWord * kCountQuantum == 1);
 
 /// Collects hits and facets, in any order. A voxel with hits has their classes, whatever facets
 /// pass through it; one without hits has the class of the facet with the most weight (ties: the

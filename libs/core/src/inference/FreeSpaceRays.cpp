@@ -147,12 +147,12 @@ VoxelBits crossedVoxels(const PreparedScan& scan, const Grid& grid, const VoxelC
 
 }  // namespace
 
-ScanIncrements castFreeSpace(const PreparedScan& scan, const Options& options, ScanReport& report) {
+ScanIncrements castFreeSpace(const PreparedScan& scan, const Options& options, std::uint32_t count,
+                             ScanReport& report) {
   if (scan.beam_ends.empty()) return {};
   ScanIncrements out;
   const Grid grid(options.resolution);
   const VoxelCoder coder(computeBox(scan, grid));
-  const std::uint32_t count = toCount(options.free_space.weight);
   crossedVoxels(scan, grid, coder, options.threads)
       .forEachChunk([&](VoxelCode chunk, const VoxelBits::Bits& bits) {
         std::size_t voxels = 0;

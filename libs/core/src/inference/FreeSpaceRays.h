@@ -9,9 +9,10 @@
 
 namespace csom::detail {
 
-/// `free_weight` of class 0 for each voxel that the beam of any down-sampled hit crosses, once a
+/// `count` of class 0 [quanta] for each voxel that the beam of any down-sampled hit crosses, once a
 /// scan. Voxels with an accepted point (also before down-sampling) and those of the beams' ends
 /// receive nothing. The increments are rounded on their own, apart from those of the kernels.
-ScanIncrements castFreeSpace(const PreparedScan& scan, const Options& options, ScanReport& report);
+ScanIncrements castFreeSpace(const PreparedScan& scan, const Options& options, std::uint32_t count,
+                             ScanReport& report);
 
 }  // namespace csom::detail

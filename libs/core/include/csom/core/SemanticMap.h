@@ -3,6 +3,7 @@
 #pragma once
 
 #include <csom/core/ChunkStore.h>
+#include <csom/core/CountIncrements.h>
 #include <csom/core/DirichletVoxel.h>
 #include <csom/core/Grid.h>
 #include <csom/core/Options.h>
@@ -16,6 +17,8 @@
 #include <utility>
 
 namespace csom {
+
+struct PreparedScan;
 
 /// Where a ray ended.
 struct RayHit {
@@ -118,6 +121,8 @@ class SemanticMap {
   void addChunkRecord(const ChunkIndex& index, const void* bytes, std::size_t size);
 
  private:
+  ScanIncrements castFreeSpace(const PreparedScan& scan, ScanIncrements& surfaces,
+                               ScanReport& report) const;
   DirichletVoxel view(const Chunk::Entries& entries) const {
     return {options_.number_of_classes,
             options_.prior,

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One scan's word about one voxel is bounded, alike for occupied and free: scans without an image.
+#pragma once
+
+#include <csom/core/CountIncrements.h>
+#include <csom/core/DirichletVoxel.h>
+
+#include <cstdint>
+
+namespace csom::detail {
+
+/// The word of a whole scan about a voxel, however many hits or beams speak [quanta]: 1.
+constexpr std::uint32_t kFullWord = 4096;
+static_assert(kFullWord * kCountQuantum == 1);
+
+/// That of the beams that cross a voxel: each sees a part of it, as facets do [quanta]. 0.4.
+constexpr std::uint32_t kWordOfBeams = 1638;
+
+/// Divides what is more than a full word among its classes in proportion.
+void boundWords(ScanIncrements& increments);
+
+/// Takes out of the free voxels those in which the same scan sees more surface than free space: a
+/// beam that grazes a surface does not take it away.
+void keepSurfaces(const ScanIncrements& surfaces, ScanIncrements& free);
+
+}  // namespace csom::detail
