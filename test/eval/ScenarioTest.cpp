@@ -142,6 +142,10 @@ TEST(Scenario, ErrorsNameFileLineAndReason) {
       {14, solid + ", color: [256, 0, 0]}", "0 to 255"},
       {14, solid + ", size: [1, 1, 1]}", "'size' stands twice"},
       {14, solid + ", radius: 1}", "unknown key 'radius'"},
+      {14, solid + ", moves: [[0, 1, 1]]}", "two places at least"},
+      {14, solid + ", moves: [[0, 1, 1], [0, 2, 2]]}", "must ascend"},
+      {14, solid + ", moves: [[0, 1, 1], [1, 2]]}", "list of 3 numbers"},
+      {14, solid + ", moves: [[0, 1, 1], [1, 2, .inf]]}", "must be a number"},
       {14, "  - {shape: box, class: car, center: [3, 3, 1], size: [4, 0, 1]}", "above 0"},
       {14, "  - {shape: cylinder, class: car, center: [3, 3, 1], radius: 1}", "has no 'height'"},
   };
@@ -150,6 +154,19 @@ TEST(Scenario, ErrorsNameFileLineAndReason) {
     EXPECT_THAT(message, HasSubstr(atLine(c.line)));
     EXPECT_THAT(message, HasSubstr(c.reason));
   }
+}
+
+TEST(Scenario, SolidsMayMove) {
+  std::vector<std::string> lines = validLines();
+  lines.push_back(
+      "  - {shape: cylinder, class: person, center: [1, 2, 0.9], radius: 0.3, height: 1.8, moves: "
+      "[[2, 0, 0], [5, 0, 4.5]]}");
+  const ScenarioFile file(lines);
+  const World world = loadScenario(file.path()).world;
+  EXPECT_EQ(world.solids().size(), 3U);
+  ASSERT_EQ(world.movingSolids().size(), 1U);
+  EXPECT_EQ(world.movingSolids()[0].solid().center(), Eigen::Vector3d(1, 2, 0.9));
+  EXPECT_EQ(world.movingSolids()[0].offsetAt(4), Eigen::Vector3d(0, 3, 0));
 }
 
 TEST(Scenario, PathThatCannotBeDrivenNamesTheWaypoints) {

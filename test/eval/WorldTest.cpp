@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "eval/RandomSolids.h"
@@ -38,6 +39,50 @@ World randomWorld(Random& random, int solids) {
     list.push_back(solid);
   }
   return World(labels(), list);
+}
+
+Solid person(const Vector3d& center) {
+  Solid solid = Solid::cylinder(center, 0.3, 1.8);
+  solid.class_id = 2;
+  return solid;
+}
+
+TEST(World, MovingSolidsAreSeenWhereTheyAre) {
+  Solid wall = Solid::box({10, 0, 0}, {1, 20, 4});
+  wall.class_id = 1;
+  // Goes, stops for two seconds, goes on.
+  const MovingSolid walker(person({5, 0, 0}),
+                           {{1, {0, -4}}, {3, {0, 0}}, {5, {0, 0}}, {6, {0, 3}}});
+  const World world(labels(), {wall}, {walker});
+  const auto seenAt = [&](double time) { return world.castRay({0, 0, 0}, {1, 0, 0}, 50, time); };
+  for (const double time : {0.0, 1.0, 2.8, 5.11, 6.0, 100.0}) {
+    ASSERT_TRUE(seenAt(time));
+    EXPECT_EQ(seenAt(time)->class_id, 1) << time;
+    EXPECT_EQ(seenAt(time)->solid, 0);
+  }
+  for (const double time : {2.9, 3.0, 4.0, 5.0, 5.09}) {
+    ASSERT_TRUE(seenAt(time));
+    EXPECT_EQ(seenAt(time)->class_id, 2) << time;
+    EXPECT_EQ(seenAt(time)->solid, 1);
+  }
+  EXPECT_NEAR(seenAt(4)->distance, 4.7, 1e-12);
+  EXPECT_NEAR(seenAt(2.9)->distance, 5 - std::sqrt(0.09 - 0.04), 1e-9) << "0.2 m beside its middle";
+  EXPECT_EQ(walker.offsetAt(2), Vector3d(0, -2, 0));
+  EXPECT_EQ(walker.offsetAt(5.5), Vector3d(0, 1.5, 0));
+  // The truth of places is that of what stays.
+  EXPECT_EQ(world.classAt({5, 0, 0}), kFreeClass);
+  EXPECT_TRUE(world.solidsTouching(AlignedBox3d(Vector3d(4, -1, -1), Vector3d(6, 1, 1))).empty());
+  EXPECT_EQ(world.bounds().min().x(), 9.5);
+}
+
+TEST(World, MovingSolidsThatCannotBeAreRefused) {
+  EXPECT_THROW(MovingSolid(person({0, 0, 0}), {{1, {0, 0}}}), std::invalid_argument);
+  EXPECT_THROW(MovingSolid(person({0, 0, 0}), {{1, {0, 0}}, {1, {0, 1}}}), std::invalid_argument);
+  EXPECT_THROW(MovingSolid(person({0, 0, 0}), {{1, {0, 0}}, {NAN, {0, 1}}}), std::invalid_argument);
+  EXPECT_THROW(MovingSolid(person({0, 0, 0}), {{1, {0, 0}}, {2, {0, INFINITY}}}),
+               std::invalid_argument);
+  const MovingSolid without_class(Solid::sphere({0, 0, 0}, 1), {{1, {0, 0}}, {2, {0, 1}}});
+  EXPECT_THROW(World(labels(), {}, {without_class}), std::invalid_argument);
 }
 
 TEST(World, NearestHitIsThatOfAllSolidsTriedOneByOne) {

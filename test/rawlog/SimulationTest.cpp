@@ -80,6 +80,12 @@ std::string lidar(const std::string& more = "") {
          more + "}\n";
 }
 
+std::string lidarPoints() {
+  return "  - {type: point_sampler, label: points, pose: [0, 0, 1, 0, 0, 0], rate: 2, points: "
+         "9000, "
+         "elevation_deg: [-20, 20], range: [0.5, 60]}\n";
+}
+
 std::string bytesOf(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   EXPECT_TRUE(in) << file;
@@ -175,6 +181,49 @@ TEST_F(SimulationTest, PacketsHoldWhatRaysMeet) {
     EXPECT_EQ(r.intensity, hit->class_id);
   }
   EXPECT_GT(hits, 20000);
+}
+
+TEST_F(SimulationTest, SensorsSeeMovingSolidsWhereTheyAre) {
+  const std::string walker =
+      "  - {shape: cylinder, class: person, center: [6, -2, 1], radius: 0.4, height: 2, moves: "
+      "[[0, 0, 0], [0.9, 0, 3]]}\n";
+  const Scenario scenario = yard(kStanding, lidar(", sweep: moving") + lidarPoints(), walker);
+  simulateRawlog(scenario, path("x.rawlog"));
+  const CRawlog rawlog = load(path("x.rawlog"));
+  const ClassId person = *scenario.world.labels().classByName("person");
+  const auto poses = all<CObservationRobotPose>(rawlog);
+  const auto scans = all<CObservationVelodyneScan>(rawlog);
+  ASSERT_EQ(scans.size(), 2U);
+  for (std::size_t scan = 0; scan < scans.size(); ++scan) {
+    const Eigen::Isometry3d sensor =
+        toEigen(poses[0]->pose.mean) * toEigen(scans[scan]->sensorPose);
+    const std::vector<Return> returns = readPackets(*scans[scan]);
+    std::size_t on_person = 0;
+    for (std::size_t i = 0; i < returns.size(); ++i) {
+      if (returns[i].intensity != person) continue;
+      ++on_person;
+      // 16 lasers fire at once, 55.296 µs after those before.
+      const double time = 0.5 * static_cast<double>(scan) + static_cast<double>(i / 16) * 55.296e-6;
+      const Vector3d hit = sensor * (0.002 * returns[i].distance * returns[i].direction);
+      const Vector3d beside = hit - Vector3d(6, -2 + time / 0.9 * 3, hit.z());
+      EXPECT_NEAR(beside.norm(), 0.4, 0.01) << time;
+    }
+    EXPECT_GT(on_person, 50U);
+  }
+  const auto clouds = all<mrpt::obs::CObservationPointCloud>(rawlog);
+  ASSERT_EQ(clouds.size(), 2U);
+  const auto& cloud = dynamic_cast<const mrpt::maps::CPointsMapXYZI&>(*clouds[1]->pointcloud);
+  const Eigen::Isometry3d sensor = toEigen(poses[0]->pose.mean) * toEigen(clouds[1]->sensorPose);
+  std::size_t on_person = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.getPointIntensity(i) != static_cast<float>(person)) continue;
+    ++on_person;
+    mrpt::math::TPoint3Df p;
+    cloud.getPoint(i, p.x, p.y, p.z);
+    const Vector3d hit = sensor * Vector3d(p.x, p.y, p.z);
+    EXPECT_NEAR((hit - Vector3d(6, -2 + 0.5 / 0.9 * 3, hit.z())).norm(), 0.4, 0.01);
+  }
+  EXPECT_GT(on_person, 20U);
 }
 
 TEST_F(SimulationTest, StockDecoderGivesThePointsBack) {

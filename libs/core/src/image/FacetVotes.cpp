@@ -96,9 +96,17 @@ class FacetDrawing {
   }
 
  private:
+  /// The points of a voxel follow each other: the largest of their weights is all it is asked for.
   void vote(std::size_t begin, std::size_t end, ClassId label) {
-    for (std::size_t i = begin; i < end; ++i)
-      words_.addFacet(points_.x[i], points_.y[i], points_.z[i], label, points_.weight[i]);
+    for (std::size_t i = begin; i < end;) {
+      const std::int32_t x = points_.x[i];
+      const std::int32_t y = points_.y[i];
+      const std::int32_t z = points_.z[i];
+      std::uint32_t weight = points_.weight[i];
+      for (++i; i < end && points_.x[i] == x && points_.y[i] == y && points_.z[i] == z; ++i)
+        weight = std::max(weight, points_.weight[i]);
+      words_.addFacet(x, y, z, label, weight);
+    }
   }
 
   const ImageBeams& beams_;

@@ -77,7 +77,22 @@ Color readColor(YamlReader& reader) {
   return color;
 }
 
-Solid readSolid(const YAML::Node& node, const std::string& file, const LabelSet& labels) {
+/// Lines of [seconds, metres along x, metres along y].
+std::vector<TimedOffset> readMoves(YamlReader& reader) {
+  std::vector<TimedOffset> places;
+  for (const YAML::Node& node : reader.list("moves")) {
+    const std::vector<double> values = reader.numbersOf(node, 3);
+    places.push_back({values[0], {values[1], values[2]}});
+    if (places.size() > 1 && places.back().time <= places[places.size() - 2].time)
+      reader.failAt(node, "the times of 'moves' must ascend");
+  }
+  if (places.size() < 2) reader.failAtKey("moves", "must have two places at least: [s, m, m]");
+  return places;
+}
+
+/// Into one of the lists.
+void readSolid(const YAML::Node& node, const std::string& file, const LabelSet& labels,
+               std::vector<Solid>& standing, std::vector<MovingSolid>& moving) {
   YamlReader reader(node, file, "solid");
   Solid solid = readShape(reader);
   const std::string name = reader.text("class");
@@ -92,8 +107,11 @@ Solid readSolid(const YAML::Node& node, const std::string& file, const LabelSet&
   }
   solid.class_id = *id;
   solid.color = reader.has("color") ? readColor(reader) : labels.at(*id).color;
+  if (reader.has("moves"))
+    moving.emplace_back(solid, readMoves(reader));
+  else
+    standing.push_back(solid);
   reader.finish();
-  return solid;
 }
 
 // --- robot ---------------------------------------------------------------------------------------
@@ -281,8 +299,9 @@ Scenario loadScenario(const std::string& file) {
   YamlReader reader(parseFile(file), file, "the world file");
   const LabelSet labels = readLabels(reader, file);
   std::vector<Solid> solids;
+  std::vector<MovingSolid> moving;
   for (const YAML::Node& node : reader.list("solids"))
-    solids.push_back(readSolid(node, file, labels));
+    readSolid(node, file, labels, solids, moving);
 
   YamlReader robot = reader.map("robot");
   const RobotPath path = readPath(robot);
@@ -292,9 +311,10 @@ Scenario loadScenario(const std::string& file) {
 
   const auto seed = static_cast<std::uint64_t>(
       reader.integer("seed", 0, std::numeric_limits<long long>::max(), 1));
-  Scenario scenario{
-      file,     World(labels, std::move(solids)), path, readSensors(reader, file, path.duration()),
-      odometry, readTruth(reader.map("truth")),   seed};
+  Scenario scenario{file,     World(labels, std::move(solids), std::move(moving)),
+                    path,     readSensors(reader, file, path.duration()),
+                    odometry, readTruth(reader.map("truth")),
+                    seed};
   reader.finish();
   return scenario;
 }

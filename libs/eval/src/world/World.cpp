@@ -50,9 +50,11 @@ void checkClass(ClassId id, std::size_t solid, const LabelSet& labels) {
 
 }  // namespace
 
-World::World(LabelSet labels, std::vector<Solid> solids)
-    : labels_(std::move(labels)), solids_(std::move(solids)) {
+World::World(LabelSet labels, std::vector<Solid> solids, std::vector<MovingSolid> moving)
+    : labels_(std::move(labels)), solids_(std::move(solids)), moving_(std::move(moving)) {
   for (std::size_t i = 0; i < solids_.size(); ++i) checkClass(solids_[i].class_id, i, labels_);
+  for (std::size_t i = 0; i < moving_.size(); ++i)
+    checkClass(moving_[i].solid().class_id, solids_.size() + i, labels_);
   buildTree();
 }
 
@@ -115,27 +117,33 @@ void World::traverse(MayEnter&& may_enter, Visit&& visit) const {
 }
 
 std::optional<SurfaceHit> World::castRay(const Vector3d& origin, const Vector3d& direction,
-                                         double max_range) const {
+                                         double max_range, double time) const {
   const Vector3d inverse = direction.cwiseInverse();
   double best = max_range;
   std::optional<Solid::Entry> nearest;
   int hit_solid = -1;
-  traverse(
-      [&](const AlignedBox3d& box) {
-        return distanceToBox(box, origin, direction, inverse) <= best + kSameSurface;
-      },
-      [&](int index) {
-        const auto entry = solids_[static_cast<std::size_t>(index)].enter(origin, direction);
-        if (!entry || entry->distance > best + kSameSurface) return;
-        const bool same = nearest && entry->distance > best - kSameSurface;
-        if (same && index < hit_solid) return;
-        if (!nearest && entry->distance > max_range) return;
-        nearest = entry;
-        hit_solid = index;
-        best = std::min(best, entry->distance);
-      });
+  const auto mayEnter = [&](const AlignedBox3d& box) {
+    return distanceToBox(box, origin, direction, inverse) <= best + kSameSurface;
+  };
+  const auto consider = [&](const std::optional<Solid::Entry>& entry, int index) {
+    if (!entry || entry->distance > best + kSameSurface) return;
+    const bool same = nearest && entry->distance > best - kSameSurface;
+    if (same && index < hit_solid) return;
+    if (!nearest && entry->distance > max_range) return;
+    nearest = entry;
+    hit_solid = index;
+    best = std::min(best, entry->distance);
+  };
+  traverse(mayEnter, [&](int index) {
+    consider(solids_[static_cast<std::size_t>(index)].enter(origin, direction), index);
+  });
+  const std::size_t standing = solids_.size();
+  for (std::size_t i = 0; i < moving_.size(); ++i)
+    if (mayEnter(moving_[i].bounds()))
+      consider(moving_[i].enter(origin, direction, time), static_cast<int>(standing + i));
   if (!nearest) return std::nullopt;
-  const Solid& solid = solids_[static_cast<std::size_t>(hit_solid)];
+  const auto hit = static_cast<std::size_t>(hit_solid);
+  const Solid& solid = hit < standing ? solids_[hit] : moving_[hit - standing].solid();
   return SurfaceHit{nearest->distance, origin + nearest->distance * direction,
                     nearest->normal,   hit_solid,
                     solid.class_id,    solid.color};

@@ -257,6 +257,10 @@ double CameraLabelTally::lostShare() const {
 
 CameraLabelScore scoreCameraLabels(const Scenario& scenario, const std::string& rawlog,
                                    const PointLabellingOptions& options) {
+  if (!scenario.world.movingSolids().empty())
+    throw ConfigError(scenario.file +
+                      ": solids move in this world, so that it has no true class of a place; take "
+                      "one without 'moves'");
   Scorer scorer(scenario, rawlog, options);
   RawlogReader reader(rawlog);
   while (const auto entry = reader.next()) {

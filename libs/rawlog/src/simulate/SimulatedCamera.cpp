@@ -77,7 +77,7 @@ Sensed sense(const CameraModel& model, const World& world, const Moment& moment,
     for (int u = 0; u < model.width; ++u, bgr += 3, ++ids) {
       const Vector3d direction =
           (axes * Vector3d(u - cx, v - cy, model.focalLength())).normalized();
-      const auto hit = world.castRay(body.translation(), direction, model.max_range);
+      const auto hit = world.castRay(body.translation(), direction, model.max_range, moment.time);
       const Color color = hit ? shaded(*hit) : kSky;
       std::reverse_copy(color.begin(), color.end(), bgr);
       *ids = static_cast<std::uint8_t>(hit ? hit->class_id : kFreeClass);

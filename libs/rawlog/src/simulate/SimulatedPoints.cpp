@@ -40,8 +40,8 @@ Sensed sense(const PointSamplerModel& model, const World& world, const Moment& m
                         " of " + std::to_string(wanted) +
                         " points within its range; move it, or lower 'points'");
     const Vector3d direction = randomDirection(model, random);
-    const auto hit =
-        world.castRay(sensor.translation(), sensor.linear() * direction, model.range.max);
+    const auto hit = world.castRay(sensor.translation(), sensor.linear() * direction,
+                                   model.range.max, moment.time);
     if (!hit) continue;
     const double distance = hit->distance + model.range.sigma * random.gaussian();
     if (distance < model.range.min || distance > model.range.max) continue;

@@ -76,7 +76,8 @@ class Turn {
 
  private:
   void writeFiring(int block_of_turn, int firing, unsigned char* bytes);
-  void writeReturn(const Vector3d& origin, const Vector3d& direction, unsigned char* bytes);
+  void writeReturn(const Vector3d& origin, const Vector3d& direction, double time,
+                   unsigned char* bytes);
 
   const VelodyneModel& model_;
   const World& world_;
@@ -114,15 +115,17 @@ Packet Turn::packet(int index) {
 
 void Turn::writeFiring(int block_of_turn, int firing, unsigned char* bytes) {
   const bool moving = model_.sweep == VelodyneModel::Sweep::Moving;
-  const double delay = (block_of_turn * kFiringsPerBlock + firing) * kFiringPeriod;
-  const Eigen::Isometry3d sensor = moment_.robot(moving ? delay : 0) * model_.mount.pose();
+  const double since_start = (block_of_turn * kFiringsPerBlock + firing) * kFiringPeriod;
+  const double delay = moving ? since_start : 0;
+  const Eigen::Isometry3d sensor = moment_.robot(delay) * model_.mount.pose();
   for (int laser = 0; laser < kLasers; ++laser)
     writeReturn(sensor.translation(), sensor.linear() * directionOf(block_of_turn, firing, laser),
-                bytes + laser * kReturnBytes);
+                moment_.time + delay, bytes + laser * kReturnBytes);
 }
 
-void Turn::writeReturn(const Vector3d& origin, const Vector3d& direction, unsigned char* bytes) {
-  const auto hit = world_.castRay(origin, direction, model_.range.max);
+void Turn::writeReturn(const Vector3d& origin, const Vector3d& direction, double time,
+                       unsigned char* bytes) {
+  const auto hit = world_.castRay(origin, direction, model_.range.max, time);
   if (!hit) return;  // zeros: nothing came back
   const double distance = hit->distance + model_.range.sigma * random_.gaussian();
   if (distance < model_.range.min || distance > model_.range.max) return;
