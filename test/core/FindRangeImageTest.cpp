@@ -222,6 +222,48 @@ TEST(FindRangeImage, SensorsThatDoNotSeeAllAround) {
   expectFound(withoutLost(scan(sensor)), 20);
 }
 
+/// A wall seen through a grid of directions, a pole before it; each line goes up, or aside.
+std::vector<Vector3f> gridOf(int rows, int columns, bool upwards) {
+  std::vector<Vector3f> points;
+  const int lines = upwards ? columns : rows;
+  const int length = upwards ? rows : columns;
+  for (int line = 0; line < lines; ++line)
+    for (int i = 0; i < length; ++i) {
+      const int row = upwards ? i : line;
+      const int column = upwards ? line : i;
+      const double y = 0.01 * (column - 0.5 * columns);
+      const double z = 0.01 * (row - 0.5 * rows);
+      const double depth = std::abs(y - 0.1) < 0.03 ? 3 : 8 + y;
+      points.push_back(Eigen::Vector3d(depth, depth * y, depth * z).cast<float>());
+    }
+  return points;
+}
+
+TEST(FindRangeImage, GridsOfDirections) {
+  for (const bool upwards : {false, true})
+    for (const bool lost : {false, true}) {
+      std::vector<Vector3f> points = gridOf(30, 60, upwards);
+      if (lost)
+        for (std::size_t i = 0; i < points.size(); i += 7)
+          points[i] = i % 2 == 0 ? Vector3f(0, 0, 0) : Vector3f(NAN, NAN, NAN);
+      const auto image = findRangeImage(points);
+      ASSERT_TRUE(image) << upwards << lost;
+      EXPECT_EQ(image->columns_of_turn, 0);
+      EXPECT_EQ(image->column_step, 1);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto line = static_cast<int>(i) / (upwards ? 30 : 60);
+        const auto in_line = static_cast<int>(i) % (upwards ? 30 : 60);
+        const bool is_lost = lost && i % 7 == 0;
+        EXPECT_EQ(image->pixels[i].row, is_lost ? RangeImage::kNoRow : (upwards ? in_line : line));
+        if (!is_lost) EXPECT_EQ(image->pixels[i].column, upwards ? line : in_line);
+      }
+    }
+  std::vector<Vector3f> points = gridOf(30, 60, false);
+  points.erase(points.begin() + 100);
+  EXPECT_FALSE(findRangeImage(points)) << "lines of two lengths";
+  EXPECT_FALSE(findRangeImage(gridOf(3, 60, false))) << "three lines";
+}
+
 TEST(FindRangeImage, NothingIsFoundInWhatIsNoScan) {
   const auto none = [](const Cloud& cloud) { return !findRangeImage(cloud.points); };
   const Cloud full = withoutLost(scan(hdl64(1)));

@@ -166,6 +166,7 @@ SensorPoints readPoints(ByteReader& in, std::uint8_t version) {
     throw std::runtime_error("serialised map: image origin " + std::to_string(origin));
   points.image_origin = static_cast<ImageOrigin>(origin);
   points.image = readImage(in);
+  // A search is over before a scan waits.
   if (!points.image.empty() && points.image.pixels.size() != points.points.size())
     throw std::runtime_error("serialised map: an image of another size than its scan");
   points.empty_beams = readEmptyBeams(in);

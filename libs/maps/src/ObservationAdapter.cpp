@@ -42,6 +42,20 @@ std::optional<ClassId> classOf(const PointLabel& label, const LabelRules& rules,
   return rules.unlabelledClass();
 }
 
+/// In the order of all beams that the observation lists.
+std::optional<RangeImage> findImage(const SensorPoints& points) {
+  if (points.no_returns == 0) return findRangeImage(points.points);
+  const std::size_t count = points.points.size();
+  std::vector<Eigen::Vector3f> beams(count + points.no_returns, Eigen::Vector3f(0, 0, 0));
+  for (std::size_t i = 0; i < count; ++i) beams[i + points.no_returns_before[i]] = points.points[i];
+  std::optional<RangeImage> image = findRangeImage(beams);
+  if (!image) return image;
+  for (std::size_t i = 0; i < count; ++i)
+    image->pixels[i] = image->pixels[i + points.no_returns_before[i]];
+  image->pixels.resize(count);
+  return image;
+}
+
 }  // namespace
 
 double secondsSince1970(const mrpt::obs::CObservation& observation) {
@@ -74,7 +88,7 @@ AdaptedScan makeScan(const SensorPoints& points, const Eigen::Isometry3d& robot_
 void searchForImage(const BeamRequest& request, SensorPoints& points) {
   if (points.image_origin != ImageOrigin::Search) return;
   std::optional<RangeImage> found;
-  if (request.images) found = findRangeImage(points.points);
+  if (request.images) found = findImage(points);
   if (found)
     points.image = *std::move(found);
   else

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "rows/Directions.h"
+#include "rows/Lines.h"
 #include "rows/RowColumns.h"
 #include "rows/Rows.h"
 
@@ -24,7 +25,7 @@ std::optional<RangeImage> findRangeImage(const std::vector<Eigen::Vector3f>& poi
     image.column_step = measureColumnStep(image);
     return image;
   }
-  return std::nullopt;
+  return detail::findLines(points);
 }
 
 RangeImage makeRangeImage(const std::vector<Eigen::Vector3f>& points,

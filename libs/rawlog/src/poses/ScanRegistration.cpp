@@ -76,9 +76,12 @@ ScanRegistration::Result ScanRegistration::add(double time, const Points& points
   }
 
   if (!first) {
-    last_motion_ = result.pose - last_pose_;
-    last_motion_seconds_ = seconds;
+    const bool two_steps = last_motion_seconds_ > 0;
+    last_motion_ = result.pose - (two_steps ? pose_before_last_ : last_pose_);
+    last_motion_seconds_ = two_steps ? time - time_before_last_ : seconds;
   }
+  pose_before_last_ = last_pose_;
+  time_before_last_ = last_time_;
   last_pose_ = result.pose;
   last_time_ = time;
   doubtful_in_a_row_ = result.doubt.empty() ? 0 : doubtful_in_a_row_ + 1;

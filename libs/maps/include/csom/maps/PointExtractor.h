@@ -8,6 +8,7 @@
 #include <mrpt/poses/CPose3D.h>
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 namespace csom {
@@ -36,6 +37,9 @@ struct SensorPoints {
   std::vector<PointLabel> labels;       ///< as many as points
   ImageOrigin image_origin = ImageOrigin::None;
   RangeImage image;  ///< of ImageOrigin::Sensor; else empty
+  /// Of ImageOrigin::Search: how many beams the observation lists before each point, the points
+  /// themselves not counted: those that returned nothing.
+  std::vector<std::uint32_t> no_returns_before;
   /// Beams that hit nothing and that the observation lists all the same.
   std::size_t no_returns = 0;
   /// Those of them of which it is known where they went; only beside an image of the sensor.
@@ -53,6 +57,8 @@ struct SensorPoints {
     }
     points.push_back(point);
     labels.push_back(label);
+    if (image_origin == ImageOrigin::Search)
+      no_returns_before.push_back(static_cast<std::uint32_t>(no_returns));
   }
   /// With its place in the image: all points or none have one.
   void add(const Eigen::Vector3f& point, const PointLabel& label, const RangeImage::Pixel& pixel) {

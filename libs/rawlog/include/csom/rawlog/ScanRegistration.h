@@ -54,8 +54,13 @@ class ScanRegistration {
   mrpt::maps::CSimplePointsMap submap_;  ///< in the frame of the newest key frame
   double last_time_ = 0;
   mrpt::poses::CPose3D last_pose_;
-  mrpt::poses::CPose3D last_motion_;  ///< from the pose before the last one
-  double last_motion_seconds_ = 0;    ///< 0: not known yet
+  double time_before_last_ = 0;
+  mrpt::poses::CPose3D pose_before_last_;
+  /// Over the last two steps, or the only one. Over one step errors would not die out: a scan that
+  /// is de-skewed by too much motion is laid half of that too far back, so that the next motion is
+  /// too small by as much.
+  mrpt::poses::CPose3D last_motion_;
+  double last_motion_seconds_ = 0;  ///< 0: not known yet
   std::size_t doubtful_in_a_row_ = 0;
 };
 
