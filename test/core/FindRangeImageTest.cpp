@@ -222,7 +222,8 @@ TEST(FindRangeImage, SensorsThatDoNotSeeAllAround) {
   expectFound(withoutLost(scan(sensor)), 20);
 }
 
-/// A wall seen through a grid of directions, a pole before it; each line goes up, or aside.
+/// A wall seen through a grid of directions, a pole before it; each line goes up, or aside. The
+/// grid is turned by 20°, so that neither azimuths nor elevations tell its rows.
 std::vector<Vector3f> gridOf(int rows, int columns, bool upwards) {
   std::vector<Vector3f> points;
   const int lines = upwards ? columns : rows;
@@ -231,9 +232,11 @@ std::vector<Vector3f> gridOf(int rows, int columns, bool upwards) {
     for (int i = 0; i < length; ++i) {
       const int row = upwards ? i : line;
       const int column = upwards ? line : i;
-      const double y = 0.01 * (column - 0.5 * columns);
-      const double z = 0.01 * (row - 0.5 * rows);
-      const double depth = std::abs(y - 0.1) < 0.03 ? 3 : 8 + y;
+      const double aside = 0.005 * (column - 0.5 * columns);
+      const double up = 0.005 * (row - 0.5 * rows);
+      const double y = aside * std::cos(0.35) - up * std::sin(0.35);
+      const double z = aside * std::sin(0.35) + up * std::cos(0.35);
+      const double depth = std::abs(y - 0.05) < 0.015 ? 3 : 8 + y;
       points.push_back(Eigen::Vector3d(depth, depth * y, depth * z).cast<float>());
     }
   return points;
@@ -253,9 +256,12 @@ TEST(FindRangeImage, GridsOfDirections) {
       for (std::size_t i = 0; i < points.size(); ++i) {
         const auto line = static_cast<int>(i) / (upwards ? 30 : 60);
         const auto in_line = static_cast<int>(i) % (upwards ? 30 : 60);
-        const bool is_lost = lost && i % 7 == 0;
-        EXPECT_EQ(image->pixels[i].row, is_lost ? RangeImage::kNoRow : (upwards ? in_line : line));
-        if (!is_lost) EXPECT_EQ(image->pixels[i].column, upwards ? line : in_line);
+        if (lost && i % 7 == 0) {
+          EXPECT_EQ(image->pixels[i].row, RangeImage::kNoRow);
+          continue;
+        }
+        EXPECT_EQ(image->pixels[i].row, upwards ? in_line : line);
+        EXPECT_EQ(image->pixels[i].column, upwards ? line : in_line);
       }
     }
   std::vector<Vector3f> points = gridOf(30, 60, false);

@@ -424,7 +424,6 @@ class NaiveImageOracle {
   }
   struct Window {
     int face, u0, u1, v0, v1;
-    int centre_u, centre_v;
     float near, far, min_u, max_u, min_v, max_v;
   };
   /// Those of all faces that are as near to the centre.
@@ -453,9 +452,6 @@ class NaiveImageOracle {
     w.u1 = last(w.max_u * (1 / (w.max_u > 0 ? w.near : w.far)));
     w.v0 = first(w.min_v * (1 / (w.min_v < 0 ? w.near : w.far)));
     w.v1 = last(w.max_v * (1 / (w.max_v > 0 ? w.near : w.far)));
-    const float inverse = 1 / (a[0] + b[0]);
-    w.centre_u = last((a[1] + b[1]) * inverse);
-    w.centre_v = last((a[2] + b[2]) * inverse);
     return w;
   }
   void findFree() {
@@ -498,7 +494,7 @@ class NaiveImageOracle {
   }
   bool isFree(const Window& w) {
     Face& face = faces_[static_cast<std::size_t>(w.face)];
-    if (pixelOf(face.inverse, w.centre_u, w.centre_v) == -1) return false;
+    bool any = false;
     // Squares of a power of two, no longer than the longer side, from each corner inwards.
     int edge = 1;
     while (2 * edge <= std::max(w.u1 - w.u0, w.v1 - w.v0) + 1 && 4 * edge <= side_) edge *= 2;
@@ -507,9 +503,11 @@ class NaiveImageOracle {
         for (int v = v0; v < std::min(v0 + edge, side_); ++v)
           for (int u = u0; u < std::min(u0 + edge, side_); ++u) {
             const float inverse = pixelOf(face.inverse, u, v);
+            if (inverse == -1) continue;
+            any = true;
             if (inverse > 1 / w.far) return false;
           }
-    return true;
+    return any;
   }
 
   const Options& o_;

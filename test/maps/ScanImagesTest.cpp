@@ -141,6 +141,21 @@ TEST_F(ScanImages, CloudsAreSearchedForRowsIfTheyAreWanted) {
     EXPECT_EQ(found.scan.image.pixels[i].row, i / 900);
   EXPECT_EQ(found.scan.image.column_step, 40);
 
+  // Beams without a return hold the places of a grid, and are no points.
+  std::vector<Eigen::Vector3f> grid;
+  for (int i = 0; i < 20 * 50; ++i)
+    grid.push_back(i % 13 == 0 ? Eigen::Vector3f(0, 0, 0)
+                               : Eigen::Vector3f(5, 0.05F * static_cast<float>(i % 50 - 25),
+                                                 0.05F * static_cast<float>(i / 50)));
+  const AdaptedScan camera = adapt(*pointCloud(grid, std::vector<float>(grid.size(), 50)));
+  EXPECT_EQ(camera.image_origin, ImageOrigin::Search);
+  ASSERT_EQ(camera.scan.image.pixels.size(), camera.scan.points.size());
+  for (std::size_t i = 0, kept = 0; i < grid.size(); ++i) {
+    if (i % 13 == 0) continue;
+    EXPECT_EQ(camera.scan.image.pixels[kept].row, i / 50);
+    EXPECT_EQ(camera.scan.image.pixels[kept++].column, static_cast<std::int32_t>(i % 50));
+  }
+
   const AdaptedScan room = adapt(*sample::roomCloud());
   EXPECT_EQ(room.image_origin, ImageOrigin::None);
   EXPECT_TRUE(room.scan.image.empty());

@@ -68,6 +68,12 @@ CubeWindows CubeGrid::windowsOf(const SpaceBox& box) const {
   return windows;
 }
 
+int CubeGrid::mostBeside(float edge, float nearest) const {
+  // A box that is seen through a face is wider along one axis than along the other by a factor of
+  // (d + |u|) / d ≤ 2, of 2e/d at most; and either has up to two pixels more than it is wide.
+  return static_cast<int>(std::min(edge / nearest * halfSide(), static_cast<float>(side_))) + 3;
+}
+
 int CubeGrid::levelOf(const CubeWindow& window) const {
   constexpr int kFew = 4;  // fewer are cheaper to look at, more are surer to tell
   const int size = std::max(window.last_u - window.first_u, window.last_v - window.first_v);

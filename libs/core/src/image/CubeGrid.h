@@ -78,6 +78,9 @@ class CubeGrid {
 
   /// As much of the box as is seen through each face, for those that show any of it.
   CubeWindows windowsOf(const SpaceBox& box) const;
+  /// How far outside of the windows of boxes of an edge, no nearer than a depth, the squares lie at
+  /// most that are no longer than the longer side of each [pixels].
+  int mostBeside(float edge, float nearest) const;
   /// The level of the pyramid at which a window has a few pixels along each axis.
   int levelOf(const CubeWindow& window) const;
 

@@ -74,13 +74,13 @@ struct SquareImage {
   std::int32_t last_level;
 };
 
-/// What eight voxels lie behind along an axis, and their centres.
+/// What eight voxels lie behind along an axis.
 struct alignas(kLaneAlignment) PixelRange {
-  IntLanes first, last, centre;
+  IntLanes first, last;
 };
-/// Inverse depths of eight voxels: at their nearest, at their farthest, half of that in between.
+/// Inverse depths of eight voxels: at their nearest and at their farthest.
 struct alignas(kLaneAlignment) InverseDepths {
-  Lanes near, far, half_middle;
+  Lanes near, far;
 };
 
 CSOM_INLINE IntLanes pixelsOf(const IntLanes& from_centre, const SquareImage& image) {
@@ -99,11 +99,9 @@ CSOM_INLINE PixelRange rangeOf(const Lanes& min, const Lanes& max, const Inverse
   const auto half_side = static_cast<float>(image.half_side);
   const Lanes lower = min * (min < 0 ? inverse.near : inverse.far) * half_side;
   const Lanes upper = max * (max > 0 ? inverse.near : inverse.far) * half_side;
-  const Lanes centre = (min + max) * inverse.half_middle * half_side;
   const IntLanes whole_lower = __builtin_convertvector(lower, IntLanes);
   const IntLanes ceiling = whole_lower - (__builtin_convertvector(whole_lower, Lanes) < lower);
-  return {pixelsOf(ceiling - 1, image), pixelsOf(floorOf(upper), image),
-          pixelsOf(floorOf(centre), image)};
+  return {pixelsOf(ceiling - 1, image), pixelsOf(floorOf(upper), image)};
 }
 
 /// Looks through one face at the voxels of a chunk. What a voxel lies behind along u depends on
@@ -129,15 +127,11 @@ void lookAt(const ChunkBoxes& boxes, int face, bool one_face, const SquareImage&
   // What is not in front of the sensor has no range of pixels: any numbers.
   const auto nearOf = [&](std::size_t i) { return sign * first[i] > 0 ? sign / first[i] : 1; };
   const auto farOf = [&](std::size_t i) { return sign * first[i] > 0 ? sign / last[i] : 0; };
-  const auto middleOf = [&](std::size_t i) {
-    return sign * first[i] > 0 ? sign / (first[i] + last[i]) : 0;
-  };
   if (axes.depth == 0) {
     InverseDepths inverse;
     for (std::size_t i = 0; i < kLanes; ++i) {
       inverse.near[i] = nearOf(i);
       inverse.far[i] = farOf(i);
-      inverse.half_middle[i] = middleOf(i);
     }
     for (std::size_t i = 0; i < kChunkSide; ++i) {
       view.far[i] = inverse.far;
@@ -146,7 +140,7 @@ void lookAt(const ChunkBoxes& boxes, int face, bool one_face, const SquareImage&
     }
   } else {
     for (std::size_t i = 0; i < kChunkSide; ++i) {
-      const InverseDepths inverse{Lanes{} + nearOf(i), Lanes{} + farOf(i), Lanes{} + middleOf(i)};
+      const InverseDepths inverse{Lanes{} + nearOf(i), Lanes{} + farOf(i)};
       view.far[i] = inverse.far;
       view.u[i] = rangeOf(load(boxes.min[0]), load(boxes.max[0]), inverse, image);
       view.v[i] = rangeOf(load(boxes.min[axes.v]), load(boxes.max[axes.v]), inverse, image);
@@ -176,7 +170,7 @@ std::uint32_t rowInFront(const ChunkView& view, std::size_t y, std::size_t z,
   PixelRange v = view.v[depth_axis == 0 ? z : depth];
   if (depth_axis != 0) {
     const std::size_t lane = depth_axis == 1 ? z : y;
-    v = {IntLanes{} + v.first[lane], IntLanes{} + v.last[lane], IntLanes{} + v.centre[lane]};
+    v = {IntLanes{} + v.first[lane], IntLanes{} + v.last[lane]};
   }
   // The exponent of a number is the whole part of its logarithm.
   const IntLanes size_u = u.last - u.first;
@@ -203,10 +197,7 @@ std::uint32_t rowInFront(const ChunkView& view, std::size_t y, std::size_t z,
     for (std::size_t lane = 0; lane < kLanes; ++lane) here[lane] = image.squares[square[lane]];
     inverse = inverse > here ? inverse : here;
   }
-  const IntLanes centre = v.centre * side + u.centre;
-  Lanes at_centre;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) at_centre[lane] = image.squares[centre[lane]];
-  IntLanes passes = (inverse <= view.far[depth]) & (at_centre > 0);
+  IntLanes passes = (inverse <= view.far[depth]) & (inverse > 0);
   if (!one_face) passes |= view.seen[8 * z + y] == 0;
   std::uint32_t bits = 0;
   for (std::size_t lane = 0; lane < kLanes; ++lane)

@@ -38,15 +38,14 @@ class CSOM_OF_ONE_BINARY DepthCube {
   const CubeGrid& grid() const { return grid_; }
 
   /// Of the voxels of a chunk, a bit each, takes out those that do not lie in front of all that was
-  /// drawn in their window, or at whose centre nothing was. Asks those whose centre is seen through
+  /// drawn in their window, or in whose window nothing was. Asks those whose centre is seen through
   /// the face; all of them if they are all seen through this `one_face`.
   ///
   /// A window is looked at through squares of pixels: of the largest edge 2^n that is no longer
   /// than its longer side, at each of its corners, inside it along that side.
   void keepInFront(const ChunkBoxes& boxes, int face, bool one_face,
                    std::array<std::uint64_t, kVoxelsPerChunk / 64>& voxels) const;
-  /// Whether the box, and every box in it, lies behind all that was drawn, if any was: no voxel in
-  /// it is kept.
+  /// Whether the box, and every box in it, lies behind all that was drawn, if any was.
   bool isAllBehind(const CubeWindow& window) const;
 
   /// Mean distance of adjacent beams [m] where a face is a depth [m] away; 0 if none pass it.

@@ -92,7 +92,7 @@ class FreeSpaceSearch {
   void search(const Node& node, ScanIncrements& out) const {
     const CubeWindows windows = cube_.grid().windowsOf(boxOf(node));
     if (std::all_of(windows.begin(), windows.end(),
-                    [&](const CubeWindow& window) { return cube_.isAllBehind(window); }))
+                    [&](const CubeWindow& window) { return isAllBehind(window); }))
       return;
     if (node.level == 0) {
       searchChunk(node, windows, out);
@@ -102,6 +102,20 @@ class FreeSpaceSearch {
       for (std::int32_t y = 0; y < 2; ++y)
         for (std::int32_t x = 0; x < 2; ++x)
           search({node.level - 1, 2 * node.x + x, 2 * node.y + y, 2 * node.z + z}, out);
+  }
+
+  /// With the pixels beside the window that may be looked at for a voxel.
+  bool isAllBehind(const CubeWindow& window) const {
+    const int last = cube_.grid().side() - 1;
+    const int beside = window.nearest > 0
+                           ? cube_.grid().mostBeside(2 * kHalfEdge * resolution_, window.nearest)
+                           : last;
+    CubeWindow larger = window;
+    larger.first_u = std::max(window.first_u - beside, 0);
+    larger.last_u = std::min(window.last_u + beside, last);
+    larger.first_v = std::max(window.first_v - beside, 0);
+    larger.last_v = std::min(window.last_v + beside, last);
+    return cube_.isAllBehind(larger);
   }
 
   void searchChunk(const Node& node, const CubeWindows& windows, ScanIncrements& out) const {

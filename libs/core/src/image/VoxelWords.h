@@ -15,7 +15,6 @@
 
 namespace csom::detail {
 
-
 /// Collects hits and facets, in any order. A voxel with hits has their classes, whatever facets
 /// pass through it; one without hits has the class of the facet with the most weight (ties: the
 /// lower class), and that weight.

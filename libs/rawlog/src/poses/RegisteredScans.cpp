@@ -19,6 +19,8 @@ namespace {
 /// Further ones would only fill the terminal; all are counted.
 constexpr std::size_t kDoubtsKept = 5;
 
+using Scan = std::shared_ptr<const mrpt::obs::CObservation>;
+
 /// Points of a scan in the frame of the robot; none if they cannot be read.
 std::vector<Eigen::Vector3f> pointsOnRobot(const mrpt::obs::CObservation& scan) {
   const LabelSet labels = LabelSet::occupancy();
@@ -35,6 +37,23 @@ std::vector<Eigen::Vector3f> pointsOnRobot(const mrpt::obs::CObservation& scan) 
   return std::move(sensed.points);
 }
 
+/// The motion of the turn at hand is not known yet: it is taken to go on as before.
+Scan withoutMotion(const mrpt::obs::CObservation& observation, double time,
+                   const ScanRegistration& before) {
+  const Scan as_it_is(Scan(), &observation);
+  const auto* scan = dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(&observation);
+  if (scan == nullptr) return as_it_is;
+  DeskewStatistics not_of_interest;
+  const auto moved = deskewed(
+      *scan,
+      [&](double at) -> std::optional<mrpt::poses::CPose3D> {
+        return before.predictedMotion(at - time);
+      },
+      not_of_interest);
+  if (!moved) return as_it_is;
+  return moved;
+}
+
 }  // namespace
 
 void RegisteredScans::add(const mrpt::obs::CObservation& observation, PoseTrack& track) {
@@ -42,9 +61,16 @@ void RegisteredScans::add(const mrpt::obs::CObservation& observation, PoseTrack&
   const auto time = secondsOf(observation.timestamp);
   if (!time) return;
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<Eigen::Vector3f> points = pointsOnRobot(*withoutMotion(observation, *time));
+  if (first_ && *time > *last_time_) {
+    beginAnew(observation, *time);
+    first_.reset();
+  }
+  const std::vector<Eigen::Vector3f> points =
+      pointsOnRobot(last_time_ ? *withoutMotion(observation, *time, registration_) : observation);
   if (points.empty()) return;
-  ++report_.statistics.scans;
+  if (report_.statistics.scans++ == 0)
+    first_ = std::dynamic_pointer_cast<const mrpt::obs::CObservation>(
+        observation.duplicateGetSmartPtr());
   if (last_time_ && *time <= *last_time_) {
     noteDoubt(*time, "it is not later than the scan before, so it is not registered at all");
     return;
@@ -57,21 +83,15 @@ void RegisteredScans::add(const mrpt::obs::CObservation& observation, PoseTrack&
   report_.statistics.seconds += elapsed.count();
 }
 
-/// The motion of the turn at hand is not known yet: it is taken to go on as before.
-RegisteredScans::Scan RegisteredScans::withoutMotion(const mrpt::obs::CObservation& observation,
-                                                     double time) const {
-  const Scan as_it_is(Scan(), &observation);
-  const auto* scan = dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(&observation);
-  if (scan == nullptr || !last_time_) return as_it_is;
-  DeskewStatistics not_of_interest;
-  const auto moved = deskewed(
-      *scan,
-      [&](double at) -> std::optional<mrpt::poses::CPose3D> {
-        return registration_.predictedMotion(at - time);
-      },
-      not_of_interest);
-  if (!moved) return as_it_is;
-  return moved;
+/// The motion during the first turn is known from the second one: with it, both are as they should
+/// be. Else the first key frames, on which all later scans are laid, would be crooked.
+void RegisteredScans::beginAnew(const mrpt::obs::CObservation& second, double time) {
+  ScanRegistration trial = registration_;
+  trial.add(time, pointsOnRobot(second));
+  const Scan first = withoutMotion(*first_, *last_time_, trial);
+  registration_ = ScanRegistration();
+  registration_.add(*last_time_, pointsOnRobot(*first));
+  registration_.expectMotionOf(trial);
 }
 
 void RegisteredScans::noteDoubt(double time, const std::string& doubt) {

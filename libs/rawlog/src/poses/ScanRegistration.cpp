@@ -76,10 +76,11 @@ ScanRegistration::Result ScanRegistration::add(double time, const Points& points
   }
 
   if (!first) {
-    const bool two_steps = last_motion_seconds_ > 0;
+    const bool two_steps = scans_ > 1;
     last_motion_ = result.pose - (two_steps ? pose_before_last_ : last_pose_);
     last_motion_seconds_ = two_steps ? time - time_before_last_ : seconds;
   }
+  ++scans_;
   pose_before_last_ = last_pose_;
   time_before_last_ = last_time_;
   last_pose_ = result.pose;

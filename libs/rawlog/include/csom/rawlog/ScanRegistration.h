@@ -37,6 +37,11 @@ class ScanRegistration {
 
   /// How the robot is expected to move in `seconds` from its last pose on.
   mrpt::poses::CPose3D predictedMotion(double seconds) const;
+  /// Before a second scan has come: to expect the motion that another registration does.
+  void expectMotionOf(const ScanRegistration& other) {
+    last_motion_ = other.last_motion_;
+    last_motion_seconds_ = other.last_motion_seconds_;
+  }
 
  private:
   using Points = std::vector<Eigen::Vector3f>;
@@ -54,6 +59,7 @@ class ScanRegistration {
   mrpt::maps::CSimplePointsMap submap_;  ///< in the frame of the newest key frame
   double last_time_ = 0;
   mrpt::poses::CPose3D last_pose_;
+  std::size_t scans_ = 0;
   double time_before_last_ = 0;
   mrpt::poses::CPose3D pose_before_last_;
   /// Over the last two steps, or the only one. Over one step errors would not die out: a scan that
