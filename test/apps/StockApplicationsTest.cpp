@@ -69,6 +69,7 @@ std::string digestOfDirectLoop(const CSimpleMap& frames, const std::string& conf
                          insertion.scan_2d_class);
   SemanticMap map(definition.options);
   SelfLabelledAdapter adapter;
+  adapter.setBeamRequest({true, 0});
   forEachObservation(frames, [&](const auto& pose, const mrpt::obs::CObservation& observation) {
     const auto scans = adapter.adapt(observation, roundedPose(pose), rules);
     if (!scans) return;
@@ -96,7 +97,7 @@ TEST(Observations2map, MapsADataSetOfMrpt) {
   const CSimpleMap frames = loadSimpleMap(frames_file);
   const MapDocument document = loadMap(folder / ("out_" + kMapSuffix));
   EXPECT_EQ(document.scans.size(), countOf(frames, CLASS_ID(mrpt::obs::CObservation2DRangeScan)));
-  EXPECT_EQ(document.map.options().free_space.mode, FreeSpace::Raycast) << "options of the ini";
+  EXPECT_EQ(document.map.options().free_space.mode, FreeSpace::Projective) << "options of the ini";
   EXPECT_EQ(mapDigest(document.map), digestOfDirectLoop(frames, config));
   EXPECT_EQ(infoOf(folder / ("out_" + kMapSuffix)).at("digest"), mapDigest(document.map));
 }

@@ -70,7 +70,7 @@ class CubeGrid {
     return clampPixel(whole - (static_cast<float>(whole) > scaled ? 1 : 0) + side_ / 2);
   }
   float centreOf(int pixel) const {
-    return (static_cast<float>(pixel - side_ / 2) + 0.5F) / halfSide();
+    return (static_cast<float>(pixel - side_ / 2) + 0.5F) * pixel_width_;
   }
   float halfSide() const { return static_cast<float>(side_ / 2); }
 
@@ -86,13 +86,15 @@ class CubeGrid {
 
  private:
   int clampPixel(int pixel) const { return std::min(std::max(pixel, 0), side_ - 1); }
-  explicit CubeGrid(int levels) : levels_(levels), side_(1 << (levels - 1)) {}
+  explicit CubeGrid(int levels)
+      : levels_(levels), side_(1 << (levels - 1)), pixel_width_(2 / static_cast<float>(side_)) {}
   struct FaceBox;
   static FaceBox seenThrough(int face, const SpaceBox& box);
   CubeWindow window(int face, const FaceBox& box) const;
 
   int levels_;
   int side_;
+  float pixel_width_;  ///< a power of two: products with it are exact
 };
 
 }  // namespace csom::detail

@@ -133,9 +133,15 @@ void FacePainter::draw(const Corners& corners) {
   spacings_ += spacing;
   ++drawings_;
   const bool is_surface = isSurface(corners);
+  const bool is_small =
+      box.last_u - box.first_u < kBoxPixels && box.last_v - box.first_v < kBoxPixels;
+  if (is_small && !is_surface) {
+    fill(box, flat(b.nearest));
+    return;
+  }
   for (const Triangle& triangle : {Triangle{at[0], at[1], at[2]}, Triangle{at[1], at[3], at[2]}}) {
     const Plane plane = is_surface ? planeThrough(triangle) : flat(b.nearest);
-    if (box.last_u - box.first_u < kBoxPixels && box.last_v - box.first_v < kBoxPixels)
+    if (is_small)
       fill(box, plane);
     else
       fillTriangle(triangle, plane);
