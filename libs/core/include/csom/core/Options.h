@@ -68,10 +68,11 @@ struct FreeSpaceOptions {
     visitor(
         OptionInfo{"free_weight", "", "raycast: evidence of free for a crossed voxel", {1e-3, 1e5}},
         o.weight);
-    visitor(OptionInfo{"free_no_return", "",
-                       "beams that returned nothing are free up to max_range, if the sensor tells "
-                       "them (rotating LiDARs do); they may also have hit what is black or too near"},
-            o.no_return);
+    visitor(
+        OptionInfo{"free_no_return", "",
+                   "beams that returned nothing are free up to max_range, if the sensor tells "
+                   "them (rotating LiDARs do); they may also have hit what is black or too near"},
+        o.no_return);
   }
 };
 
