@@ -14,6 +14,7 @@ import unittest
 
 from PIL import Image, ImageChops
 from selenium import webdriver
+from selenium.common.exceptions import TimeoutException
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.actions.action_builder import ActionBuilder
@@ -103,10 +104,21 @@ class BrowserTest(unittest.TestCase):
     def picture(self, name=None):
         self.wait_for_picture()
         self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", self.canvas())
-        png = self.canvas().screenshot_as_png
+        png = self.screenshot(self.canvas())
         if name:
             (SCREENSHOTS / f"{name}.png").write_bytes(png)
         return Image.open(io.BytesIO(png)).convert("RGB")
+
+    @staticmethod
+    def screenshot(element, tries=6):
+        """The driver gives the browser 10 s to draw, which is less than it needs without a graphics card
+        for a million voxels, if other tests run beside."""
+        for left in range(tries - 1, -1, -1):
+            try:
+                return element.screenshot_as_png
+            except TimeoutException:
+                if left == 0:
+                    raise
 
     def save_page(self, name):
         self.browser.save_screenshot(str(SCREENSHOTS / f"{name}.png"))
