@@ -261,10 +261,21 @@ class NaiveOracle {
   bool isSurface(const Cell& voxel) {
     const auto found = mass_.find(voxel);
     if (o_.free_space.mode != FreeSpace::Projective || found == mass_.end()) return false;
-    double difference = -found->second[0];
-    for (std::size_t k = 1; k < classes_; ++k) difference += found->second[k];
-    const double roundings = static_cast<double>(classes_) / 4096 + 1e-4;
-    if (std::abs(difference) < roundings) undecided_.insert(voxel);
+    // It compares counts: what is rounded the other way there may decide.
+    double difference = 0;
+    double doubtful = 0;
+    double all = 0;
+    for (std::size_t k = 0; k < classes_; ++k) {
+      const double quanta = found->second[k] * 4096;
+      all += quanta;
+      difference += (k == 0 ? -1 : 1) * std::floor(quanta + 0.5);
+      const double from_border = std::abs(quanta - std::floor(quanta) - 0.5);
+      doubtful += from_border < 0.01 + 2e-5 * quanta ? 1 : 0;
+    }
+    const bool was_bounded = all > 4095.9;  // and rounded twice
+    if (std::abs(difference) <= doubtful + (was_bounded ? static_cast<double>(classes_) : 0) &&
+        (doubtful > 0 || was_bounded))
+      undecided_.insert(voxel);
     return difference > 0;
   }
 
