@@ -15,10 +15,10 @@ namespace csom {
 /// one that looks along a grid of directions.
 ///
 /// `points`: relative to the sensor, the z axis being that of its rotation [m], as they were
-/// written down: row after row, each in the order of azimuths, as KITTI and organised clouds are; in
-/// any order if each row has an elevation of its own, as clouds of Velodyne drivers have; or line
-/// after line of a grid, rows or columns of it. Beams that returned nothing may be among them, as
-/// (0,0,0) or non-finite, and must be in a grid: they get no row.
+/// written down: row after row, each in the order of azimuths, as KITTI and organised clouds are;
+/// in any order if each row has an elevation of its own, as clouds of Velodyne drivers have; or
+/// line after line of a grid, rows or columns of it. Beams that returned nothing may be among them,
+/// as (0,0,0) or non-finite, and must be in a grid: they get no row.
 ///
 /// Columns are hundredths of a degree, from the x axis to the y axis; those of a grid are numbered.
 /// Nothing if the points are not such a scan: those of several scans, too few (less than four rows
