@@ -9,6 +9,7 @@
 #include <mrpt/obs/CRawlog.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "SampleObservations.h"
@@ -226,6 +227,14 @@ TEST_F(ScanImages, BeamsWithoutAReturnAreFreeIfThatIsAskedFor) {
       EXPECT_GT(at, std::min(range, 60.0) - 0.01);
     }
   }
+  // What is nearer than the sensor measures is no point, but nothing is free behind it.
+  const AdaptedScan whole = adapt(*observation, {true, 30});
+  observation->minRange = 5;
+  const AdaptedScan blocked = adapt(*observation, {true, 30});
+  EXPECT_GT(blocked.no_returns, whole.no_returns + 1000);
+  EXPECT_EQ(std::count(blocked.scan.labels.begin(), blocked.scan.labels.end(), kFreeClass),
+            std::count(whole.scan.labels.begin(), whole.scan.labels.end(), kFreeClass));
+
   auto rotating = rotatingScan(360, 359 * M_PI / 180);
   rotating.rangeImage(2, 5) = 0;
   const AdaptedScan scan = adapt(rotating, {true, 20});

@@ -192,6 +192,7 @@ TEST(VelodynePackets, WhatTheSensorCannotMeasureIsNoReturn) {
   packet.give(0, 0, 249).give(0, 2, 251).give(0, 4, 49999).give(0, 6, 50001);  // 0.5 m, 100 m
   const auto beams = decodePackets(scanOf("VLP16", {packet}));
   EXPECT_FALSE(beamOf(beams, 0, 0).returned);
+  EXPECT_TRUE(beamOf(beams, 0, 0).point.isZero()) << "something is there: not a free direction";
   EXPECT_TRUE(beamOf(beams, 0, 2).returned);
   EXPECT_TRUE(beamOf(beams, 0, 4).returned);
   EXPECT_FALSE(beamOf(beams, 0, 6).returned);
@@ -205,7 +206,7 @@ TEST(VelodynePackets, DamageIsToldByPacketAndBlock) {
   const Packet good = turning(0, 40);
   const auto header = scanOf("VLP16", {good, Packet(good).block(7, 0x1234, 280)});
   EXPECT_THAT(decoding(header), ThrowsMessage<std::runtime_error>(
-                                    HasSubstr("packet 1, block 7: it begins with 4660")));
+                                    HasSubstr("packet 1, block 7: it begins with 0x1234")));
   const auto lower = scanOf("HDL32", {Packet(good).block(0, kLower, 0)});
   EXPECT_THAT(decoding(lower), ThrowsMessage<std::runtime_error>(HasSubstr("packet 0, block 0")));
   const auto azimuth = scanOf("VLP16", {Packet(good).block(3, kUpper, 36000)});

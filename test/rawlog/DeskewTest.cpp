@@ -93,22 +93,25 @@ TEST_F(DeskewTest, PointsLieOnTheSurfacesThatTheyWereSeenOn) {
   CObservationVelodyneScan::TGeneratePointCloudParameters parameters;
   parameters.minDistance = 0;
   as_it_is.generatePointCloud(parameters);
-  // Beam by beam, those without a return too: out of reach.
-  const std::vector<VelodyneBeam> beams = decodePackets(*scans[5]);
-  CObservationVelodyneScan::TPointCloud returned;
-  ASSERT_EQ(moved->point_cloud.size(), beams.size());
-  for (std::size_t i = 0; i < beams.size(); ++i) {
-    EXPECT_EQ(moved->point_cloud.laser_id[i], beams[i].laser);
-    EXPECT_FLOAT_EQ(moved->point_cloud.azimuth[i], 0.01F * beams[i].azimuth);
-    EXPECT_EQ(moved->point_cloud.intensity[i], beams[i].intensity);
-    const Eigen::Vector3f point(moved->point_cloud.x[i], moved->point_cloud.y[i],
-                                moved->point_cloud.z[i]);
-    EXPECT_EQ(point.norm() <= moved->maxRange, beams[i].returned);
-    if (!beams[i].returned) continue;
-    returned.x.push_back(point.x());
-    returned.y.push_back(point.y());
-    returned.z.push_back(point.z());
+  const auto& still = dynamic_cast<const MovedVelodyneScan&>(*moved);
+  const auto& returned = moved->point_cloud;
+  std::size_t points = 0;
+  std::size_t empty = 0;
+  for (const VelodyneBeam& beam : decodePackets(*scans[5])) {
+    if (!beam.returned) {
+      ASSERT_LT(empty, still.empty_beams.size());
+      EXPECT_EQ(still.empty_beams[empty].pixel.column, beam.azimuth);
+      EXPECT_NEAR(still.empty_beams[empty++].farthest.norm(), moved->maxRange, 0.5);
+      continue;
+    }
+    ASSERT_LT(points, returned.size());
+    EXPECT_EQ(returned.laser_id[points], beam.laser);
+    EXPECT_FLOAT_EQ(returned.azimuth[points], 0.01F * static_cast<float>(beam.azimuth));
+    EXPECT_EQ(returned.intensity[points++], beam.intensity);
   }
+  EXPECT_EQ(points, returned.size());
+  EXPECT_EQ(empty, still.empty_beams.size());
+  EXPECT_GT(empty, 1000U);
   EXPECT_TRUE(moved->scan_packets.empty());
   EXPECT_EQ(moved->timestamp, scans[5]->timestamp);
   // The rest is seen past edges that hid it from where the turn began.

@@ -38,6 +38,10 @@ class VelodyneExtractor : public PointExtractor {
       addCloud(scan, rules, out);
     else
       addPackets(scan, rules, out);
+    if (const auto* moved = dynamic_cast<const MovedVelodyneScan*>(&scan)) {
+      out.no_returns += moved->too_near;
+      for (const EmptyBeam& beam : moved->empty_beams) out.addEmpty(beam);
+    }
     return out;
   }
 
@@ -54,7 +58,7 @@ class VelodyneExtractor : public PointExtractor {
     out.reserve(beams.size());
     for (const VelodyneBeam& beam : beams) {
       const RangeImage::Pixel pixel{rows[beam.laser], beam.azimuth};
-      if (beam.returned)
+      if (beam.returned || beam.point.isZero())
         out.add(beam.point, labelOf(beam.intensity, rules), pixel);
       else
         out.addEmpty({static_cast<float>(scan.maxRange) * beam.point, pixel});
@@ -82,13 +86,8 @@ class VelodyneExtractor : public PointExtractor {
     std::vector<std::uint16_t> kept_rows;
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3f point(cloud.x[i], cloud.y[i], cloud.z[i]);
-      const float range = point.norm();
-      if (range > scan.maxRange) {
-        if (has_columns)
-          out.addEmpty({point * (static_cast<float>(scan.maxRange) / range),
-                        {rows[i], columnOf(cloud.azimuth[i])}});
-        else
-          ++out.no_returns;
+      if (point.norm() > scan.maxRange) {
+        ++out.no_returns;
         continue;
       }
       const std::size_t before = out.points.size();

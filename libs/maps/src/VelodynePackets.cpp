@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <numeric>
 #include <stdexcept>
@@ -21,6 +22,16 @@ constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
 constexpr int kReturnsOfBlock = CObservationVelodyneScan::SCANS_PER_BLOCK;
 constexpr int kTurn = CObservationVelodyneScan::ROTATION_MAX_UNITS;
 constexpr double kDegree = 3.14159265358979323846 / 180;
+
+/// Microseconds since the hour began. Not packet.gps_timestamp(): that one binds a reference to a
+/// number that lies at no multiple of four bytes.
+std::uint32_t timeOf(const Packet& packet) {
+  static_assert(sizeof packet == sizeof packet.blocks + sizeof(std::uint32_t) + 2);
+  std::uint32_t time;
+  std::memcpy(&time, reinterpret_cast<const std::uint8_t*>(&packet) + sizeof packet.blocks,
+              sizeof time);
+  return time;
+}
 
 /// When and where to the lasers of a block are fired.
 struct FiringPattern {
@@ -107,7 +118,7 @@ class Decoder {
         nearest_(std::max(0.0F, static_cast<float>(scan.minRange))),
         farthest_(static_cast<float>(scan.maxRange)) {
     if (scan.scan_packets.size() > 1)
-      packet_seconds_ = secondsSinceFirst(scan.scan_packets.back()) /
+      packet_seconds_ = secondsSinceFirst(scan, scan.scan_packets.size() - 1) /
                         static_cast<double>(scan.scan_packets.size() - 1);
   }
 
@@ -132,7 +143,7 @@ class Decoder {
   void readPacket(std::size_t number) {
     const Packet& packet = scan_.scan_packets[number];
     check(packet, number);
-    const float start = secondsSinceFirst(packet);
+    const double start = secondsSinceFirst(scan_, number);
     const int together = blocksOfAzimuth(packet);
     const int turned = medianTurn(packet, together);
     const double block_seconds =
@@ -147,7 +158,7 @@ class Decoder {
             block_seconds > 0 ? static_cast<int>(std::lround(turned * since_block / block_seconds))
                               : 0;
         readReturn(packet, block, k, first_laser + k % pattern_.lasers, meanwhile,
-                   start + static_cast<float>(since_packet + since_block));
+                   static_cast<float>(start + since_packet + since_block));
       }
     }
   }
@@ -159,20 +170,17 @@ class Decoder {
       const bool known = header == CObservationVelodyneScan::UPPER_BANK ||
                          (header == CObservationVelodyneScan::LOWER_BANK && lasers_.size() == 64);
       if (known && rotation < kTurn) continue;
-      throw std::runtime_error(
-          "packet " + std::to_string(number) + ", block " + std::to_string(block) +
-          (known ? ": the azimuth is " + std::to_string(rotation) + "; a turn has 36000 units"
-                 : ": it begins with " + std::to_string(header) +
-                       ", which is no block of a Velodyne with " + std::to_string(lasers_.size()) +
-                       " lasers"));
+      const std::string place =
+          "packet " + std::to_string(number) + ", block " + std::to_string(block) + ": ";
+      if (known)
+        throw std::runtime_error(place + "the azimuth is " + std::to_string(rotation) +
+                                 "; a turn has 36000 units");
+      char begin[8];
+      std::snprintf(begin, sizeof begin, "0x%04x", header);
+      throw std::runtime_error(place + "it begins with " + begin +
+                               ", which is no block of a Velodyne with " +
+                               std::to_string(lasers_.size()) + " lasers");
     }
-  }
-
-  float secondsSinceFirst(const Packet& packet) const {
-    constexpr std::uint32_t kHour = 3'600'000'000;  // [µs]: it may end during the turn
-    const std::uint32_t first = timeOf(scan_.scan_packets.front());
-    const std::uint32_t time = timeOf(packet);
-    return 1e-6F * static_cast<float>(time >= first ? time - first : kHour - first + time);
   }
 
   /// How far the sensor turns from one azimuth to the next.
@@ -198,10 +206,16 @@ class Decoder {
     const float distance =
         static_cast<float>(given.distance()) * CObservationVelodyneScan::DISTANCE_RESOLUTION +
         from.distance_correction;
-    const bool returned = given.distance() != 0 && distance >= nearest_ && distance <= farthest_;
-    beams_.push_back({returned ? pointOf(distance, from, azimuth) : directionOf(from, azimuth),
-                      returned, given.intensity(), static_cast<std::uint8_t>(laser),
-                      static_cast<std::uint16_t>(azimuth), seconds});
+    const bool empty = given.distance() == 0 || distance > farthest_;
+    const bool too_near = !empty && distance < nearest_;
+    Eigen::Vector3f point(0, 0, 0);
+    if (empty)
+      point = directionOf(from, azimuth);
+    else if (!too_near)
+      point = pointOf(distance, from, azimuth);
+    beams_.push_back({point, !empty && !too_near, given.intensity(),
+                      static_cast<std::uint8_t>(laser), static_cast<std::uint16_t>(azimuth),
+                      seconds});
   }
 
   Eigen::Vector3f directionOf(const Laser& laser, int azimuth) const {
@@ -233,14 +247,11 @@ std::vector<VelodyneBeam> decodePackets(const CObservationVelodyneScan& scan) {
   return Decoder(scan).run();
 }
 
-// Not packet.gps_timestamp(): that one binds a reference to a number that lies at no multiple of
-// four bytes.
-std::uint32_t timeOf(const CObservationVelodyneScan::TVelodyneRawPacket& packet) {
-  static_assert(sizeof packet == sizeof packet.blocks + sizeof(std::uint32_t) + 2);
-  std::uint32_t time;
-  std::memcpy(&time, reinterpret_cast<const std::uint8_t*>(&packet) + sizeof packet.blocks,
-              sizeof time);
-  return time;
+double secondsSinceFirst(const CObservationVelodyneScan& scan, std::size_t packet) {
+  constexpr std::uint32_t kHour = 3'600'000'000;  // [µs]
+  const std::uint32_t first = timeOf(scan.scan_packets.front());
+  const std::uint32_t time = timeOf(scan.scan_packets.at(packet));
+  return 1e-6 * (time >= first ? time - first : kHour - first + time);
 }
 
 std::vector<std::uint16_t> rowsOfLasers(const VelodyneCalibration& calibration) {

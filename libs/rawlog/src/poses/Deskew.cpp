@@ -31,14 +31,8 @@ std::optional<Sweep> findSweep(const CObservationVelodyneScan& scan) {
   if (!start || scan.scan_packets.empty()) return std::nullopt;
   Sweep sweep;
   sweep.start = *start;
-  const std::uint32_t first = timeOf(scan.scan_packets.front());
-  for (const auto& packet : scan.scan_packets) {
-    // Microseconds since the hour began, which may end during the turn.
-    constexpr std::uint32_t kHour = 3'600'000'000;
-    const std::uint32_t time = timeOf(packet);
-    const std::uint32_t elapsed = time >= first ? time - first : kHour - first + time;
-    sweep.last_packet = std::max(sweep.last_packet, 1e-6 * elapsed);
-  }
+  for (std::size_t packet = 0; packet < scan.scan_packets.size(); ++packet)
+    sweep.last_packet = std::max(sweep.last_packet, secondsSinceFirst(scan, packet));
   if (scan.scan_packets.size() > 1)
     sweep.packet_length = sweep.last_packet / static_cast<double>(scan.scan_packets.size() - 1);
   return sweep;
@@ -48,11 +42,11 @@ std::optional<Sweep> findSweep(const CObservationVelodyneScan& scan) {
 class MovedPoints {
  public:
   MovedPoints(const CObservationVelodyneScan& scan, const Sweep& sweep, const RobotMotion& motion,
-              CObservationVelodyneScan::TPointCloud& out)
+              MovedVelodyneScan& out)
       : sweep_(sweep),
         motion_(motion),
         mount_(detail::toEigen(scan.sensorPose)),
-        max_range_(scan.maxRange),
+        rows_(rowsOfLasers(scan.calibration)),
         out_(out) {
     const auto start = sensorAt(sweep.start);
     complete_ = start && sensorAt(sweep.end());
@@ -72,24 +66,33 @@ class MovedPoints {
       complete_ = complete_ && sensor;
       if (sensor) start_from_beam_ = start_from_map_ * *sensor;
     }
-    // Points beyond maxRange are beams without a return, there as well.
-    const double scale = beam.returned ? 1 : kNoReturn * max_range_;
-    const Eigen::Vector3f moved =
-        (start_from_beam_ * (scale * beam.point.cast<double>())).cast<float>();
-    out_.x.push_back(moved.x());
-    out_.y.push_back(moved.y());
-    out_.z.push_back(moved.z());
-    out_.intensity.push_back(beam.intensity);
-    out_.azimuth.push_back(0.01F * static_cast<float>(beam.azimuth));
-    out_.laser_id.push_back(beam.laser);
-    if (beam.returned) farthest_ = std::max(farthest_, moved.norm());
+    if (!beam.returned) {
+      addEmpty(beam);
+      return;
+    }
+    const Eigen::Vector3f moved = (start_from_beam_ * beam.point.cast<double>()).cast<float>();
+    auto& cloud = out_.point_cloud;
+    cloud.x.push_back(moved.x());
+    cloud.y.push_back(moved.y());
+    cloud.z.push_back(moved.z());
+    cloud.intensity.push_back(beam.intensity);
+    cloud.azimuth.push_back(0.01F * static_cast<float>(beam.azimuth));
+    cloud.laser_id.push_back(beam.laser);
+    farthest_ = std::max(farthest_, moved.norm());
   }
   /// Largest range of a point that was added [m].
   float farthest() const { return farthest_; }
 
  private:
-  static constexpr double kNoReturn = 1000;
-
+  void addEmpty(const VelodyneBeam& beam) {
+    if (beam.point.isZero()) {
+      ++out_.too_near;
+      return;
+    }
+    const Eigen::Vector3d farthest = out_.maxRange * beam.point.cast<double>();
+    out_.empty_beams.push_back(
+        {(start_from_beam_ * farthest).cast<float>(), {rows_[beam.laser], beam.azimuth}});
+  }
   std::optional<Eigen::Isometry3d> sensorAt(double time) const {
     const auto robot = motion_(time);
     if (!robot) return std::nullopt;
@@ -99,8 +102,8 @@ class MovedPoints {
   const Sweep& sweep_;
   const RobotMotion& motion_;
   const Eigen::Isometry3d mount_;
-  const double max_range_;  ///< [m]
-  CObservationVelodyneScan::TPointCloud& out_;
+  const std::vector<std::uint16_t> rows_;
+  MovedVelodyneScan& out_;
   bool complete_ = false;
   float farthest_ = 0;
   Eigen::Isometry3d start_from_map_ = Eigen::Isometry3d::Identity();
@@ -118,16 +121,17 @@ CObservationVelodyneScan::Ptr deskewed(const CObservationVelodyneScan& scan,
     ++statistics.not_needed;
     return nullptr;
   }
-  auto copy = std::make_shared<CObservationVelodyneScan>(scan);
+  std::vector<VelodyneBeam> beams;
+  try {
+    beams = decodePackets(scan);
+  } catch (const std::exception&) {
+    return nullptr;
+  }
+  auto copy = std::make_shared<MovedVelodyneScan>();
+  static_cast<CObservationVelodyneScan&>(*copy) = scan;
   copy->point_cloud.clear();
-  MovedPoints points(scan, *sweep, motion, copy->point_cloud);
+  MovedPoints points(scan, *sweep, motion, *copy);
   if (points.complete()) {
-    std::vector<VelodyneBeam> beams;
-    try {
-      beams = decodePackets(scan);
-    } catch (const std::exception&) {
-      return nullptr;
-    }
     copy->point_cloud.reserve(beams.size());
     for (const VelodyneBeam& beam : beams) points.add(beam);
   }

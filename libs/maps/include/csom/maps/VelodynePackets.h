@@ -2,9 +2,11 @@
 // The packets of a Velodyne LiDAR, beam by beam.
 #pragma once
 
+#include <csom/maps/PointExtractor.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,7 +23,7 @@ struct VelodyneBeam {
 };
 
 /// All beams of a scan's packets, those without a return too, in the order in which they were
-/// fired. Returns nearer than minRange or farther than maxRange of the scan count as none. Of a
+/// fired. Returns beyond maxRange of the scan count as none. Of a
 /// dual return that differs, the second follows as a beam of its own; of one that does not, there
 /// is one.
 ///
@@ -34,10 +36,17 @@ struct VelodyneBeam {
 /// damaged.
 std::vector<VelodyneBeam> decodePackets(const mrpt::obs::CObservationVelodyneScan& scan);
 
-/// When a packet was sent [µs since the hour began].
-std::uint32_t timeOf(const mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket& packet);
+/// When a packet was sent, from the first one of its scan on [s]: the hour may end between them.
+double secondsSinceFirst(const mrpt::obs::CObservationVelodyneScan& scan, std::size_t packet);
 
 /// Of each laser of a calibration the row that it measures: 0 is the lowest.
 std::vector<std::uint16_t> rowsOfLasers(const mrpt::obs::VelodyneCalibration& calibration);
+
+/// A scan without packets whose points are those of its packets, moved. MRPT writes it as what it
+/// is derived from, without what a cloud cannot say.
+struct MovedVelodyneScan : mrpt::obs::CObservationVelodyneScan {
+  std::vector<EmptyBeam> empty_beams;
+  std::size_t too_near = 0;  ///< beams that something nearer than minRange has thrown back
+};
 
 }  // namespace csom

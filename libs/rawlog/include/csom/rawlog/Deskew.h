@@ -15,9 +15,10 @@ namespace csom {
 using RobotMotion = std::function<std::optional<mrpt::poses::CPose3D>(double time)>;
 
 /// The same scan as if it had been taken at once at its time stamp: its points, moved, are in
-/// point_cloud with their lasers and azimuths, and it has no packets. Null if that is not needed or
-/// not possible; `statistics` says which. Also null, and nothing is counted, for a scan without
-/// packets, which tells no times, and for one with a damaged packet, which the map refuses.
+/// point_cloud with their lasers and azimuths, and it has no packets (a MovedVelodyneScan). Null if
+/// that is not needed or not possible; `statistics` says which. Also null, and nothing is counted,
+/// for a scan without packets, which tells no times, and for one with a damaged packet, which the
+/// map refuses.
 mrpt::obs::CObservationVelodyneScan::Ptr deskewed(const mrpt::obs::CObservationVelodyneScan& scan,
                                                   const RobotMotion& motion,
                                                   DeskewStatistics& statistics);
