@@ -19,8 +19,6 @@ namespace {
 /// Further ones would only fill the terminal; all are counted.
 constexpr std::size_t kDoubtsKept = 5;
 
-using Scan = std::shared_ptr<const mrpt::obs::CObservation>;
-
 /// Points of a scan in the frame of the robot; none if they cannot be read.
 std::vector<Eigen::Vector3f> pointsOnRobot(const mrpt::obs::CObservation& scan) {
   const LabelSet labels = LabelSet::occupancy();
@@ -37,12 +35,11 @@ std::vector<Eigen::Vector3f> pointsOnRobot(const mrpt::obs::CObservation& scan) 
   return std::move(sensed.points);
 }
 
-/// The motion of the turn at hand is not known yet: it is taken to go on as before.
-Scan withoutMotion(const mrpt::obs::CObservation& observation, double time,
-                   const ScanRegistration& before) {
-  const Scan as_it_is(Scan(), &observation);
+/// Points of a scan as if all had been seen at once, if the robot moves as `before` expects.
+std::vector<Eigen::Vector3f> pointsWithoutMotion(const mrpt::obs::CObservation& observation,
+                                                 double time, const ScanRegistration& before) {
   const auto* scan = dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(&observation);
-  if (scan == nullptr) return as_it_is;
+  if (scan == nullptr) return pointsOnRobot(observation);
   DeskewStatistics not_of_interest;
   const auto moved = deskewed(
       *scan,
@@ -50,8 +47,7 @@ Scan withoutMotion(const mrpt::obs::CObservation& observation, double time,
         return before.predictedMotion(at - time);
       },
       not_of_interest);
-  if (!moved) return as_it_is;
-  return moved;
+  return pointsOnRobot(moved ? *moved : observation);
 }
 
 }  // namespace
@@ -61,14 +57,13 @@ void RegisteredScans::add(const mrpt::obs::CObservation& observation, PoseTrack&
   const auto time = secondsOf(observation.timestamp);
   if (!time) return;
   const auto start = std::chrono::steady_clock::now();
-  if (first_ && *time > *last_time_) {
-    beginAnew(observation, *time);
-    first_.reset();
-  }
+  // The motion of the turn at hand is not known yet: it is taken to go on as before.
+  const bool second = first_ && *time > *last_time_;
   const std::vector<Eigen::Vector3f> points =
-      pointsOnRobot(last_time_ ? *withoutMotion(observation, *time, registration_) : observation);
+      second ? secondPoints(observation, *time)
+             : pointsWithoutMotion(observation, *time, registration_);
   if (points.empty()) return;
-  if (report_.statistics.scans++ == 0)
+  if (report_.statistics.scans++ == 0 && sweepEnd(observation))
     first_ = std::dynamic_pointer_cast<const mrpt::obs::CObservation>(
         observation.duplicateGetSmartPtr());
   if (last_time_ && *time <= *last_time_) {
@@ -85,13 +80,16 @@ void RegisteredScans::add(const mrpt::obs::CObservation& observation, PoseTrack&
 
 /// The motion during the first turn is known from the second one: with it, both are as they should
 /// be. Else the first key frames, on which all later scans are laid, would be crooked.
-void RegisteredScans::beginAnew(const mrpt::obs::CObservation& second, double time) {
+std::vector<Eigen::Vector3f> RegisteredScans::secondPoints(const mrpt::obs::CObservation& second,
+                                                           double time) {
+  const std::vector<Eigen::Vector3f> as_they_are = pointsOnRobot(second);
+  if (as_they_are.empty()) return {};
   ScanRegistration trial = registration_;
-  trial.add(time, pointsOnRobot(second));
-  const Scan first = withoutMotion(*first_, *last_time_, trial);
+  trial.add(time, as_they_are);
   registration_ = ScanRegistration();
-  registration_.add(*last_time_, pointsOnRobot(*first));
-  registration_.expectMotionOf(trial);
+  registration_.add(*last_time_, pointsWithoutMotion(*first_, *last_time_, trial));
+  first_.reset();
+  return pointsWithoutMotion(second, time, trial);
 }
 
 void RegisteredScans::noteDoubt(double time, const std::string& doubt) {

@@ -28,14 +28,14 @@ class RegisteredScans {
  private:
   using Scan = std::shared_ptr<const mrpt::obs::CObservation>;
 
-  void beginAnew(const mrpt::obs::CObservation& second, double time);
+  std::vector<Eigen::Vector3f> secondPoints(const mrpt::obs::CObservation& second, double time);
   void noteDoubt(double time, const std::string& doubt);
 
   std::string sensor_label_;
   ScanRegistration registration_;
   RegistrationReport report_;
   std::optional<double> last_time_;
-  Scan first_;  ///< until there is a second one
+  Scan first_;  ///< until there is a second one, if the sensor moves while it scans
 };
 
 }  // namespace csom::detail

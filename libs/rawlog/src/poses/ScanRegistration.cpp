@@ -65,8 +65,8 @@ std::string percent(double share) {
 ScanRegistration::Result ScanRegistration::add(double time, const Points& points) {
   Points kept = usable(points);
   const bool first = key_frames_.empty();
-  const double seconds = time - last_time_;
-  const CPose3D predicted = last_pose_ + predictedMotion(seconds);
+  const CPose3D predicted =
+      last_.empty() ? CPose3D() : last_.back().pose + predictedMotion(time - last_.back().time);
 
   Result result{predicted, {}};
   if (!first) {
@@ -75,16 +75,8 @@ ScanRegistration::Result ScanRegistration::add(double time, const Points& points
     result.doubt = "it has only " + std::to_string(kept.size()) + " points";
   }
 
-  if (!first) {
-    const bool two_steps = scans_ > 1;
-    last_motion_ = result.pose - (two_steps ? pose_before_last_ : last_pose_);
-    last_motion_seconds_ = two_steps ? time - time_before_last_ : seconds;
-  }
-  ++scans_;
-  pose_before_last_ = last_pose_;
-  time_before_last_ = last_time_;
-  last_pose_ = result.pose;
-  last_time_ = time;
+  last_.push_back({time, result.pose});
+  if (last_.size() > 3) last_.pop_front();
   doubtful_in_a_row_ = result.doubt.empty() ? 0 : doubtful_in_a_row_ + 1;
   if (doubtful_in_a_row_ == kDoubtfulUntilLost) {
     key_frames_.clear();
@@ -97,10 +89,10 @@ ScanRegistration::Result ScanRegistration::add(double time, const Points& points
 }
 
 CPose3D ScanRegistration::predictedMotion(double seconds) const {
-  if (last_motion_seconds_ <= 0 || std::abs(seconds) > kLongestPrediction) return {};
+  if (last_.size() < 2 || std::abs(seconds) > kLongestPrediction) return {};
   using Motions = mrpt::poses::Lie::SE<3>;
-  auto twist = Motions::log(last_motion_);
-  twist *= seconds / last_motion_seconds_;
+  auto twist = Motions::log(last_.back().pose - last_.front().pose);
+  twist *= seconds / (last_.back().time - last_.front().time);
   return Motions::exp(twist);
 }
 

@@ -37,11 +37,6 @@ class ScanRegistration {
 
   /// How the robot is expected to move in `seconds` from its last pose on.
   mrpt::poses::CPose3D predictedMotion(double seconds) const;
-  /// Before a second scan has come: to expect the motion that another registration does.
-  void expectMotionOf(const ScanRegistration& other) {
-    last_motion_ = other.last_motion_;
-    last_motion_seconds_ = other.last_motion_seconds_;
-  }
 
  private:
   using Points = std::vector<Eigen::Vector3f>;
@@ -57,16 +52,14 @@ class ScanRegistration {
 
   std::deque<KeyFrame> key_frames_;      ///< the oldest first
   mrpt::maps::CSimplePointsMap submap_;  ///< in the frame of the newest key frame
-  double last_time_ = 0;
-  mrpt::poses::CPose3D last_pose_;
-  std::size_t scans_ = 0;
-  double time_before_last_ = 0;
-  mrpt::poses::CPose3D pose_before_last_;
-  /// Over the last two steps, or the only one. Over one step errors would not die out: a scan that
-  /// is de-skewed by too much motion is laid half of that too far back, so that the next motion is
-  /// too small by as much.
-  mrpt::poses::CPose3D last_motion_;
-  double last_motion_seconds_ = 0;  ///< 0: not known yet
+  struct TimedPose {
+    double time;
+    mrpt::poses::CPose3D pose;
+  };
+  /// The last three. Motion is taken over two steps: over one, errors would not die out, as a scan
+  /// that is de-skewed by too much motion is laid half of that too far back, so that the next
+  /// motion is too small by as much.
+  std::deque<TimedPose> last_;
   std::size_t doubtful_in_a_row_ = 0;
 };
 
