@@ -63,11 +63,16 @@ void registerInsertions(const std::vector<Scan>& scans) {
     fine.resolution = fine.scan.ds_resolution = 0.1;
     add(name + "/fine", scans, fine);
   }
-  Options surface = mapOptions();
-  surface.method = Method::SurfaceCsom;
-  add("insert/surface-csom", scans, surface);
-  surface.threads = 2;
-  add("insert/surface-csom/two-threads", scans, surface);
+  for (const FreeSpace free_space : {FreeSpace::None, FreeSpace::Projective}) {
+    Options options = mapOptions();
+    options.method = Options{}.method;
+    options.free_space.mode = free_space;
+    if (free_space != FreeSpace::None) options.scan.max_range = 50;
+    const std::string name = "insert/default/" + toString(free_space);
+    add(name, scans, options);
+    options.threads = 2;
+    add(name + "/two-threads", scans, options);
+  }
   for (const FreeSpace free_space : {FreeSpace::None, FreeSpace::Sampled, FreeSpace::Raycast}) {
     Options options = mapOptions();
     options.scan.max_range = 50;

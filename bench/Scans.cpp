@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scans.h"
 
+#include <csom/core/FindRangeImage.h>
 #include <csom/eval/Scenario.h>
 #include <csom/io/KittiReader.h>
 #include <csom/io/LabelSet.h>
@@ -13,6 +14,8 @@
 #include <cstdlib>
 #include <memory>
 #include <numeric>
+#include <stdexcept>
+#include <utility>
 
 namespace csom::bench {
 
@@ -26,6 +29,12 @@ Eigen::Vector3d beamDirection(int column, int columns, int beam) {
   const double elevation = (2.0 - 26.8 * beam / (kBeams - 1)) * kDegree;
   return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
           std::sin(elevation)};
+}
+
+void findImage(SensorScan& scan) {
+  auto image = findRangeImage(scan.points);
+  if (!image) throw std::runtime_error("the rows of a scan cannot be found");
+  scan.image = *std::move(image);
 }
 
 SensorScan campusScan(const Scenario& campus, double time, int columns) {
@@ -45,6 +54,7 @@ SensorScan campusScan(const Scenario& campus, double time, int columns) {
       scan.labels.push_back(hit->class_id);
     }
   }
+  findImage(scan);
   return scan;
 }
 
@@ -69,6 +79,7 @@ Drive semanticKitti(const std::string& folder) {
       out.points.push_back(raw.points[p]);
       out.labels.push_back(label.id);
     }
+    findImage(out);
     return out;
   };
   return {"SemanticKITTI 08", kScans, scan};
@@ -92,6 +103,7 @@ Scan inMap(const SensorScan& scan) {
   Scan out;
   out.origin = scan.pose.translation();
   out.labels = scan.labels;
+  out.image = scan.image;
   out.points.reserve(scan.points.size());
   for (const Eigen::Vector3f& point : scan.points)
     out.points.push_back((scan.pose.linear() * point.cast<double>()).cast<float>());

@@ -16,6 +16,7 @@ namespace csom::bench {
 struct SensorScan {
   std::vector<Eigen::Vector3f> points;  ///< sensor frame [m]
   std::vector<ClassId> labels;
+  RangeImage image;  ///< found, as for the scans of a log that does not tell it
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< of the sensor in the map frame
 };
 

@@ -13,6 +13,7 @@
 #include <memory>
 #include <sstream>
 #include <thread>
+#include <utility>
 
 #include "CommandLine.h"
 #include "OutputFolder.h"
@@ -57,13 +58,16 @@ EvaluationRequest makeRequest(const EvalRunArguments& arguments) {
   for (const std::string& method : methods) request.methods.push_back(MethodSpec::parse(method));
   request.data = arguments.data;
   if (!arguments.world.empty()) {
-    const auto has = [&](const char* name) {
-      return std::count(request.protocols.begin(), request.protocols.end(), name) > 0;
-    };
-    if (has("P4") == has("P5"))
-      throw ConfigError("--world is the world of P4 or of P5: run one of them, not " +
-                        std::string(has("P4") ? "both" : "neither"));
-    (has("P4") ? request.room_world : request.robot_world) = arguments.world;
+    std::vector<std::string*> worlds;
+    for (const auto& [name, world] :
+         {std::pair{"P4", &request.room_world}, std::pair{"P5", &request.robot_world},
+          std::pair{"P8", &request.moving_world}})
+      if (std::count(request.protocols.begin(), request.protocols.end(), name) > 0)
+        worlds.push_back(world);
+    if (worlds.size() != 1)
+      throw ConfigError("--world is the world of P4, P5 or P8: run one of them, not " +
+                        std::string(worlds.empty() ? "none" : "several"));
+    *worlds.front() = arguments.world;
   }
   request.threads = arguments.threads > 0
                         ? arguments.threads
@@ -136,7 +140,7 @@ void addEvalRunCommand(CLI::App& eval) {
       "room (*.pcd with labels) or a street (layout of SemanticKITTI) (default: "
       "$CSOM_DATA)");
   command->add_option("--world", arguments->world,
-                      "World file of P4 or P5 (default: room.yaml and campus.yaml)");
+                      "World file of P4, P5 or P8 (default: room, campus and crossing.yaml)");
   command->add_option("--methods", arguments->methods,
                       "Methods separated by commas, each with options of its own if it is one of "
                       "csom map's: see-csom:rvfm=off:block_depth=1 (default: all)");

@@ -146,7 +146,7 @@ TEST_F(EvalTest, RunWithWrongArgumentsWritesNothing) {
   expectFailure(csom({"eval", "run", "P9", "-o", out}), 2, "no protocol 'P9'");
   expectFailure(csom({"eval", "run", "P4", "-o", out, "--methods", "best"}), 2, "no method 'best'");
   expectFailure(csom({"eval", "run", "P4,P5", "-o", out, "--world", "x.yaml"}), 2,
-                "--world is the world of P4 or of P5");
+                "--world is the world of P4, P5 or P8");
   expectFailure(csom({"eval", "run", "P4", "-o", out, "--world", folder_ / "none.yaml"}), 2,
                 "none.yaml");
   EXPECT_FALSE(fs::exists(out));

@@ -68,8 +68,7 @@ std::string digestOfDirectLoop(const CSimpleMap& frames, const std::string& conf
   const LabelRules rules(definition.labels, insertion.point_labels, insertion.unlabelled_class,
                          insertion.scan_2d_class);
   SemanticMap map(definition.options);
-  SelfLabelledAdapter adapter;
-  adapter.setBeamRequest({true, 0});
+  SelfLabelledAdapter adapter(beamsOf(definition.options));
   forEachObservation(frames, [&](const auto& pose, const mrpt::obs::CObservation& observation) {
     const auto scans = adapter.adapt(observation, roundedPose(pose), rules);
     if (!scans) return;

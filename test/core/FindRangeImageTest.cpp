@@ -247,7 +247,7 @@ TEST(FindRangeImage, GridsOfDirections) {
     for (const bool lost : {false, true}) {
       std::vector<Vector3f> points = gridOf(30, 60, upwards);
       if (lost)
-        for (std::size_t i = 0; i < points.size(); i += 7)
+        for (std::size_t i = 0; i < points.size(); i += 7)  // the end of some lines among them
           points[i] = i % 2 == 0 ? Vector3f(0, 0, 0) : Vector3f(NAN, NAN, NAN);
       const auto image = findRangeImage(points);
       ASSERT_TRUE(image) << upwards << lost;
@@ -265,6 +265,8 @@ TEST(FindRangeImage, GridsOfDirections) {
       }
     }
   std::vector<Vector3f> points = gridOf(30, 60, false);
+  points[59] = points[60] = points[119] = Vector3f(0, 0, 0);
+  ASSERT_TRUE(findRangeImage(points)) << "the ends of the first lines did not return";
   points.erase(points.begin() + 100);
   EXPECT_FALSE(findRangeImage(points)) << "lines of two lengths";
   EXPECT_FALSE(findRangeImage(gridOf(3, 60, false))) << "three lines";

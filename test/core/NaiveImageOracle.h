@@ -480,7 +480,8 @@ class NaiveImageOracle {
       beams = std::max(beams,
                        static_cast<float>(face.spacings / face.drawings) * (0.5F * (near + far)));
     }
-    const std::uint32_t count = beams > r_ ? weightAt(0.5F * (beams - r_)) : 4096;
+    const float covered = beams > r_ ? r_ / beams : 1;
+    const auto count = static_cast<std::uint32_t>(16.0F * 4096.0F * covered * covered + 0.5F);
     for (std::int64_t i = 0; i < 512; ++i) {
       const Cell voxel{low[0] + i % 8, low[1] + i / 8 % 8, low[2] + i / 64};
       const std::vector<Window> own = windowsOf(boxOf(voxel, voxel));
@@ -494,7 +495,6 @@ class NaiveImageOracle {
   }
   bool isFree(const Window& w) {
     Face& face = faces_[static_cast<std::size_t>(w.face)];
-    bool any = false;
     // Squares of a power of two, no longer than the longer side, from each corner inwards.
     int edge = 1;
     while (2 * edge <= std::max(w.u1 - w.u0, w.v1 - w.v0) + 1 && 4 * edge <= side_) edge *= 2;
@@ -503,11 +503,9 @@ class NaiveImageOracle {
         for (int v = v0; v < std::min(v0 + edge, side_); ++v)
           for (int u = u0; u < std::min(u0 + edge, side_); ++u) {
             const float inverse = pixelOf(face.inverse, u, v);
-            if (inverse == -1) continue;
-            any = true;
-            if (inverse > 1 / w.far) return false;
+            if (inverse == -1 || inverse > 1 / w.far) return false;
           }
-    return any;
+    return true;
   }
 
   const Options& o_;

@@ -50,8 +50,7 @@ class ScanImages : public testing::Test {
                     PointLabels labels = PointLabels::None) {
     const std::string unlabelled = labels == PointLabels::None ? "wall" : "drop";
     const LabelRules rules(labels_, labels, unlabelled, "wall");
-    SelfLabelledAdapter adapter;
-    adapter.setBeamRequest(request);
+    SelfLabelledAdapter adapter(request);
     auto scans = adapter.adapt(observation, roundedPose({1, 2, 3, 0.4, 0, 0}), rules);
     if (!scans || scans->size() != 1) throw std::logic_error("not one scan");
     return scans->front();
@@ -126,7 +125,7 @@ TEST_F(ScanImages, StoredCloudsOfAVelodyneMayTellTheirLasers) {
 
   scan->point_cloud.azimuth.clear();
   scan->point_cloud.laser_id[3] = 16;  // no such laser: the rows are searched for
-  EXPECT_EQ(adapt(*scan).image_origin, ImageOrigin::Search);
+  EXPECT_EQ(adapt(*scan).image_origin, ImageOrigin::Found);
   EXPECT_TRUE(packets.scan.points.size() > scan->point_cloud.size());
 }
 
@@ -136,7 +135,7 @@ TEST_F(ScanImages, CloudsAreSearchedForRowsIfTheyAreWanted) {
   EXPECT_EQ(adapt(*cloud, {false, 0}).image_origin, ImageOrigin::None);
   EXPECT_TRUE(adapt(*cloud, {false, 0}).scan.image.empty());
   const AdaptedScan found = adapt(*cloud);
-  EXPECT_EQ(found.image_origin, ImageOrigin::Search);
+  EXPECT_EQ(found.image_origin, ImageOrigin::Found);
   ASSERT_EQ(found.scan.image.pixels.size(), points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
     EXPECT_EQ(found.scan.image.pixels[i].row, i / 900);
@@ -149,7 +148,7 @@ TEST_F(ScanImages, CloudsAreSearchedForRowsIfTheyAreWanted) {
                                : Eigen::Vector3f(5, 0.05F * static_cast<float>(i % 50 - 25),
                                                  0.05F * static_cast<float>(i / 50)));
   const AdaptedScan camera = adapt(*pointCloud(grid, std::vector<float>(grid.size(), 50)));
-  EXPECT_EQ(camera.image_origin, ImageOrigin::Search);
+  EXPECT_EQ(camera.image_origin, ImageOrigin::Found);
   ASSERT_EQ(camera.scan.image.pixels.size(), camera.scan.points.size());
   for (std::size_t i = 0, kept = 0; i < grid.size(); ++i) {
     if (i % 13 == 0) continue;

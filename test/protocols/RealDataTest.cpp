@@ -3,7 +3,12 @@
 #include <csom/protocols/Evaluation.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace csom {
 namespace {
@@ -38,6 +43,19 @@ TEST(ProtocolsOnRealData, AMapOfTheStreetBeatsItsInput) {
   EXPECT_NEAR(result.voxels.score.weightedAverageIou(), 0.223, 0.005);
   EXPECT_GT(result.points->accuracy(), evaluation.predictions->accuracy());
   EXPECT_GT(result.points->meanIou(), evaluation.predictions->meanIou());
+}
+
+TEST(ProtocolsOnRealData, P7IsWhatAnIndependentProgramComputes) {
+  const Evaluation evaluation = run("P7", {"s-csm", "see-csom", "s-bki"});
+  // By a script of NumPy that shares no code with this one.
+  const std::vector<std::array<double, 2>> computed{{0.463, 0.651}, {0.351, 0.443}, {0.322, 0.404}};
+  ASSERT_EQ(evaluation.results.size(), computed.size());
+  for (std::size_t i = 0; i < computed.size(); ++i) {
+    const VoxelScore& score = evaluation.results[i].voxels.score;
+    EXPECT_NEAR(score.weightedAverageIou(), computed[i][0], 6e-4);
+    EXPECT_NEAR(score.geometricIou(), computed[i][1], 6e-4);
+  }
+  EXPECT_EQ(evaluation.results[0].scans, 2U);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <cstring>
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include "protocols/SmallInputs.h"
 
@@ -108,6 +110,50 @@ TEST(StreetProtocol, MissingFilesAreNamed) {
   test::writeBytes(short_of_poses / "poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
   EXPECT_THAT(test::fileErrorOf([&] { readStreet(short_of_poses.path(), labels); }),
               HasSubstr("has 1 poses, so none for"));
+}
+
+/// A scan of points along the x axis, seen from the origin.
+StreetScan scanAlongX(const std::vector<std::pair<double, ClassId>>& ranges) {
+  StreetScan scan;
+  for (const auto& [range, label] : ranges) {
+    scan.points.emplace_back(range, 0.1, 0.1);
+    scan.labels.push_back(label);
+    scan.predictions.push_back(label);
+  }
+  return scan;
+}
+
+TEST(StreetProtocol, P7KnowsWhatPointsAndTwoSamplesOfBeamsTell) {
+  Street street;
+  street.labels = test::labelsOf("semantickitti");
+  // Voxels of 1 m; samples at 1.5, 2.3, 3.1, 3.9, 4.7, 5.5, 6.3 … of each beam.
+  street.scans = {scanAlongX({{4.5, 1}, {6.4, kFreeClass}}), scanAlongX({{4.6, 9}, {4.7, 9}}),
+                  scanAlongX({{9.5, 1}, {51, 9}})};
+  const VoxelTruth truth = computeStreetTruth(street, 1);
+  EXPECT_EQ(truth.at({4, 0, 0}), 9);           // the majority
+  EXPECT_FALSE(truth.at({6, 0, 0}));           // holds a point without a label
+  EXPECT_EQ(truth.at({2, 0, 0}), kFreeClass);  // crossed by all beams
+  EXPECT_FALSE(truth.at({5, 0, 0}));           // crossed by one, which has one sample there
+  EXPECT_EQ(truth.at({7, 0, 0}), kFreeClass);  // by one, which has two (7.1, 7.9)
+  EXPECT_FALSE(truth.at({8, 0, 0}));           // 8.7: less than a voxel before the point
+  EXPECT_EQ(truth.at({9, 0, 0}), 1);
+  EXPECT_FALSE(truth.at({20, 0, 0}));  // the beam that ends beyond 50 m tells nothing
+  EXPECT_FALSE(truth.at({51, 0, 0}));
+  EXPECT_FALSE(truth.at({2, 3, 0}));
+  EXPECT_TRUE(truth.knowsFree());
+}
+
+TEST(StreetProtocol, P7MapsTheFirstAndTheLastScan) {
+  Street street;
+  street.labels = test::labelsOf("semantickitti");
+  street.scans = {scanAlongX({{4.5, 1}}), scanAlongX({{9.5, 1}}), scanAlongX({{9.5, 9}})};
+  const Trial trial = knownStreetTrials(street, 0, 1).front();
+  ASSERT_EQ(trial.scans->size(), 2U);
+  EXPECT_THAT(trial.scans->back().labels, ElementsAre(9));
+  const TrialResult result = runTrial(trial, MethodSpec::parse("s-csm")).front();
+  EXPECT_DOUBLE_EQ(result.voxels.score.iou(1), 0.5);  // class 1 is what both voxels are (ties)
+  EXPECT_GT(result.voxels.known_free_iou, 0);         // beams are cast
+  EXPECT_EQ(result.points->points(), 3U);
 }
 
 }  // namespace

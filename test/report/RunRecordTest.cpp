@@ -243,6 +243,17 @@ TEST(RunRecordTest, PointsThatAreKeptAsUnlabelledAreNoRejects) {
   EXPECT_EQ(totals["no_returns"], 18);
 }
 
+TEST(RunRecordTest, TellsWhereRangeImagesComeFrom) {
+  RunRecord record = test::sampleRecord();
+  EXPECT_EQ(describeImages(record.images), "") << "the method does not look at them";
+  record.images = {1200, 1, 3};
+  EXPECT_EQ(describeImages(record.images),
+            "1,200 scans with the range image of the sensor, 1 scan with rows found in the points, "
+            "3 scans without rows: neighbours in space");
+  EXPECT_EQ(parsed(record)["scan_images"],
+            json::parse(R"({"of_sensor": 1200, "found": 1, "none": 3})"));
+}
+
 TEST(RunRecordTest, TellsAboutDeskewingAndRegistration) {
   RunRecord record = test::sampleRecord();
   record.deskew = DeskewStatistics{5, 6, 7};

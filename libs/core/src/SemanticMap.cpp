@@ -52,6 +52,18 @@ double squaredDistanceToChunk(const Grid& grid, const ChunkIndex& chunk,
   return (point - point.cwiseMax(lower).cwiseMin(upper)).squaredNorm();
 }
 
+/// Of a scan without an image. Where free space is projective, so that its word is bounded, that of
+/// surfaces is as well.
+ScanIncrements findFreeSpace(const PreparedScan& scan, const Options& options,
+                             ScanIncrements& surfaces, ScanReport& report) {
+  if (options.free_space.mode != FreeSpace::Projective || !options.usesImages())
+    return detail::castFreeSpace(scan, options, detail::toCount(options.free_space.weight), report);
+  detail::boundWords(surfaces);
+  ScanIncrements free = detail::castFreeSpace(scan, options, detail::kWordOfBeams, report);
+  detail::keepSurfaces(surfaces, free);
+  return free;
+}
+
 }  // namespace
 
 SemanticMap::SemanticMap(const Options& options) : options_(options), grid_(options.resolution) {
@@ -69,26 +81,13 @@ ScanReport SemanticMap::insert(const Scan& scan) {
     ScanIncrements kernel_mass = detail::inferIncrements(prepared, options_, report, memory.image);
     ScanIncrements free_space;
     if (prepared.image_points.image.empty())
-      free_space = castFreeSpace(prepared, kernel_mass, report);
+      free_space = findFreeSpace(prepared, options_, kernel_mass, report);
     report.infer_ms = watch.lap();
     store_.add(kernel_mass, options_.threads);
     store_.add(free_space, options_.threads);
     report.commit_ms = watch.lap();
   });
   return report;
-}
-
-/// Of a scan without an image. Where free space is projective, so that its word is bounded, that of
-/// surfaces is as well.
-ScanIncrements SemanticMap::castFreeSpace(const PreparedScan& scan, ScanIncrements& surfaces,
-                                          ScanReport& report) const {
-  if (options_.free_space.mode != FreeSpace::Projective || !options_.usesImages())
-    return detail::castFreeSpace(scan, options_, detail::toCount(options_.free_space.weight),
-                                 report);
-  detail::boundWords(surfaces);
-  ScanIncrements free = detail::castFreeSpace(scan, options_, detail::kWordOfBeams, report);
-  detail::keepSurfaces(surfaces, free);
-  return free;
 }
 
 void SemanticMap::merge(const SemanticMap& other) {
@@ -106,6 +105,7 @@ void SemanticMap::merge(const SemanticMap& other) {
 
 void SemanticMap::clear() {
   store_.clear();
+  memory_.giveBack();
 }
 
 DirichletVoxel SemanticMap::voxel(const VoxelIndex& index) const {

@@ -62,9 +62,10 @@ void count(ScanImageCounts& counts, ImageOrigin origin) {
     case ImageOrigin::Sensor:
       ++counts.of_sensor;
       break;
-    case ImageOrigin::Search:
+    case ImageOrigin::Found:
       ++counts.found;
       break;
+    case ImageOrigin::Unknown:
     case ImageOrigin::None:
       ++counts.none;
       break;
@@ -250,7 +251,6 @@ bool CSemanticContinuousMap::internal_insertObservation(
   bool kept = false;
   try {
     const Eigen::Isometry3d pose = roundedPose(robot_pose.value_or(mrpt::poses::CPose3D()));
-    adapter().setBeamRequest(beamRequest());
     const auto adapted = adapter().adapt(observation, pose, rules);
     if (!adapted) {
       last_insertion_.outcome = LastInsertion::Outcome::NotTaken;
@@ -288,14 +288,9 @@ void CSemanticContinuousMap::insertFinished(const mrpt::obs::CObservation& obser
 
 ObservationAdapter& CSemanticContinuousMap::adapter() {
   if (adapter_) return *adapter_;
-  adapter_ = makeAdapter(labelOptions, labels());
+  adapter_ = makeAdapter(labelOptions, labels(), beamsOf(map_.options()));
   setLabelledScanObserver(labelled_scan_observer_);
   return *adapter_;
-}
-
-BeamRequest CSemanticContinuousMap::beamRequest() const {
-  const Options& options = map_.options();
-  return {options.usesImages(), options.free_space.no_return ? options.scan.max_range : 0};
 }
 
 void CSemanticContinuousMap::openLabelSources() {
@@ -314,9 +309,7 @@ void CSemanticContinuousMap::setLabelledScanObserver(LabelledScanObserver observ
 
 void CSemanticContinuousMap::flush() {
   last_insertion_ = {};
-  if (!adapter_) return;
-  adapter_->setBeamRequest(beamRequest());
-  insertScans(adapter_->flush());
+  if (adapter_) insertScans(adapter_->flush());
 }
 
 std::optional<CameraStatistics> CSemanticContinuousMap::cameraStatistics() const {

@@ -36,8 +36,10 @@ double timeOf(const mrpt::obs::CObservation& observation) {
 
 }  // namespace
 
-CameraLabelledAdapter::CameraLabelledAdapter(const LabelOptions& options, const LabelSet& labels)
-    : options_(options),
+CameraLabelledAdapter::CameraLabelledAdapter(const LabelOptions& options, const LabelSet& labels,
+                                             const BeamRequest& beams)
+    : ObservationAdapter(beams),
+      options_(options),
       raw_to_class_(rawToClass(labels)),
       number_of_classes_(labels.numberOfClasses()) {
   if (options.outside_view == OutsideView::Unlabelled) unlabelled_ = labels.unlabelledClass();
@@ -109,11 +111,11 @@ std::optional<std::vector<AdaptedScan>> CameraLabelledAdapter::adapt(
     const bool self = labelsItself(observation.sensorLabel);
     scan.points =
         extractor->extract(observation, self ? rules : rules.withSource(PointLabels::None));
-    searchForImage(beamRequest(), scan.points);
+    searchForImage(beams(), scan.points);
     scan.sensor_label = observation.sensorLabel;
     scan.observation_class = observationName(observation);
     if (self || labelsItself(scan.points, rules)) {
-      AdaptedScan adapted = makeScan(scan.points, robot_pose, rules, beamRequest());
+      AdaptedScan adapted = makeScan(scan.points, robot_pose, rules, beams());
       adapted.timestamp = secondsSince1970(observation);
       adapted.sensor_label = scan.sensor_label;
       adapted.observation_class = scan.observation_class;
@@ -316,8 +318,8 @@ void CameraLabelledAdapter::finish(const WaitingScan& scan) {
     ++statistics_.scans.labelled;
   }
   statistics_.points.add(labelled.counts());
-  finished_.push_back(scanOf(scan, labelled, number_of_classes_, unlabelled_,
-                             beamRequest().free_range, statistics_.points.kept_unlabelled));
+  finished_.push_back(scanOf(scan, labelled, number_of_classes_, unlabelled_, beams().free_range,
+                             statistics_.points.kept_unlabelled));
 
   if (!observer_ || images.empty()) return;
   LabelledScan seen{scan.points.points, labelled, {}};
@@ -338,10 +340,10 @@ void CameraLabelledAdapter::forgetImages() {
     camera.images.forgetBefore(oldest - options_.max_time_offset - restart());
 }
 
-std::unique_ptr<ObservationAdapter> makeAdapter(const LabelOptions& options,
-                                                const LabelSet& labels) {
-  if (!options.usesCameras()) return std::make_unique<SelfLabelledAdapter>();
-  return std::make_unique<CameraLabelledAdapter>(options, labels);
+std::unique_ptr<ObservationAdapter> makeAdapter(const LabelOptions& options, const LabelSet& labels,
+                                                const BeamRequest& beams) {
+  if (!options.usesCameras()) return std::make_unique<SelfLabelledAdapter>(beams);
+  return std::make_unique<CameraLabelledAdapter>(options, labels, beams);
 }
 
 }  // namespace csom

@@ -38,7 +38,8 @@ class CameraLabelledAdapter : public ObservationAdapter {
   static constexpr double kRestart = 1.0;  ///< [s], or twice max_time_offset if that is more
 
   /// Throws ConfigError or FileError if a network is described wrongly or missing.
-  CameraLabelledAdapter(const LabelOptions& options, const LabelSet& labels);
+  CameraLabelledAdapter(const LabelOptions& options, const LabelSet& labels,
+                        const BeamRequest& beams = {});
 
   std::optional<std::vector<AdaptedScan>> adapt(const mrpt::obs::CObservation& observation,
                                                 const Eigen::Isometry3d& robot_pose,

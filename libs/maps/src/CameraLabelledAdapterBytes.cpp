@@ -162,11 +162,10 @@ SensorPoints readPoints(ByteReader& in, std::uint8_t version) {
   if (version >= 4) points.no_returns = in.number<std::uint64_t>();
   if (version < 6) return points;
   const auto origin = in.number<std::uint8_t>();
-  if (origin > static_cast<std::uint8_t>(ImageOrigin::Search))
+  if (origin > static_cast<std::uint8_t>(ImageOrigin::Found))
     throw std::runtime_error("serialised map: image origin " + std::to_string(origin));
   points.image_origin = static_cast<ImageOrigin>(origin);
   points.image = readImage(in);
-  // A search is over before a scan waits.
   if (!points.image.empty() && points.image.pixels.size() != points.points.size())
     throw std::runtime_error("serialised map: an image of another size than its scan");
   points.empty_beams = readEmptyBeams(in);

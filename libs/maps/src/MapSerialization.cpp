@@ -311,7 +311,7 @@ void CSemanticContinuousMap::serializeFrom(mrpt::serialization::CArchive& in,
   readChunks(block, map);
   std::unique_ptr<ObservationAdapter> adapter;
   if (version >= 1 && block.flag()) {
-    adapter = makeAdapter(label_options, labels->set());
+    adapter = makeAdapter(label_options, labels->set(), beamsOf(map.options()));
     adapter->readFrom(block, version);
   }
   if (block.left() > 0) throw std::runtime_error("serialised map: bytes after its end");

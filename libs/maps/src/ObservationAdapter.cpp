@@ -64,7 +64,7 @@ double secondsSince1970(const mrpt::obs::CObservation& observation) {
 }
 
 AdaptedScan makeScan(const SensorPoints& points, const Eigen::Isometry3d& robot_pose,
-                     const LabelRules& rules, const BeamRequest& request) {
+                     const LabelRules& rules, const BeamRequest& beams) {
   const Eigen::Isometry3d sensor = sensorPoseInMap(robot_pose, points.sensor_pose);
   const Eigen::Matrix3d rotation = sensor.linear();
   AdaptedScan out;
@@ -81,18 +81,22 @@ AdaptedScan makeScan(const SensorPoints& points, const Eigen::Isometry3d& robot_
     out.scan.labels.push_back(*id);
     image.keep(i);
   }
-  image.keepEmpty(rotation, request.free_range, [&] { out.scan.labels.push_back(kFreeClass); });
+  image.keepEmpty(rotation, beams.free_range, [&] { out.scan.labels.push_back(kFreeClass); });
   return out;
 }
 
-void searchForImage(const BeamRequest& request, SensorPoints& points) {
-  if (points.image_origin != ImageOrigin::Search) return;
-  std::optional<RangeImage> found;
-  if (request.images) found = findImage(points);
-  if (found)
-    points.image = *std::move(found);
-  else
-    points.image_origin = ImageOrigin::None;
+void searchForImage(const BeamRequest& beams, SensorPoints& points) {
+  if (points.image_origin != ImageOrigin::Unknown) return;
+  points.image_origin = ImageOrigin::None;
+  if (!beams.images) return;
+  std::optional<RangeImage> found = findImage(points);
+  if (!found) return;
+  points.image = *std::move(found);
+  points.image_origin = ImageOrigin::Found;
+}
+
+BeamRequest beamsOf(const Options& options) {
+  return {options.usesImages(), options.free_space.no_return ? options.scan.max_range : 0};
 }
 
 std::optional<std::vector<AdaptedScan>> SelfLabelledAdapter::adapt(
@@ -101,8 +105,8 @@ std::optional<std::vector<AdaptedScan>> SelfLabelledAdapter::adapt(
   const PointExtractor* extractor = findPointExtractor(observation);
   if (extractor == nullptr) return std::nullopt;
   SensorPoints points = extractor->extract(observation, rules);
-  searchForImage(beamRequest(), points);
-  AdaptedScan adapted = makeScan(points, robot_pose, rules, beamRequest());
+  searchForImage(beams(), points);
+  AdaptedScan adapted = makeScan(points, robot_pose, rules, beams());
   adapted.timestamp = secondsSince1970(observation);
   adapted.sensor_label = observation.sensorLabel;
   adapted.observation_class = observationName(observation);

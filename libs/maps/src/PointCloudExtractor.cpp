@@ -98,7 +98,7 @@ class PointCloudExtractor : public PointExtractor {
 
     SensorPoints out;
     out.sensor_pose = scan.sensorPose;
-    out.image_origin = ImageOrigin::Search;
+    out.image_origin = ImageOrigin::Unknown;
     const std::vector<PointLabel> labels = labelsOf(cloud, rules);
     out.reserve(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) out.add({x[i], y[i], z[i]}, labels[i]);

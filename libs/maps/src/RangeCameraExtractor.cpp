@@ -159,7 +159,7 @@ class RangeCameraExtractor : public PointExtractor {
         scan.pixelLabels ? labelsOf(scan, rules) : std::vector<PointLabel>(count);
     const bool has_image =
         scan.points3D_idxs_x.size() == count && scan.points3D_idxs_y.size() == count;
-    if (has_image) out.image_origin = ImageOrigin::Sensor;
+    out.image_origin = has_image ? ImageOrigin::Sensor : ImageOrigin::Unknown;
     out.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3f point(scan.points3D_x[i], scan.points3D_y[i], scan.points3D_z[i]);

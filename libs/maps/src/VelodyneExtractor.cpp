@@ -81,7 +81,7 @@ class VelodyneExtractor : public PointExtractor {
       throw std::runtime_error("point_cloud has coordinates and intensities of unequal number");
     const std::vector<std::uint16_t> rows = rowsOfPoints(scan);
     const bool has_columns = !rows.empty() && cloud.azimuth.size() == count;
-    if (rows.empty()) out.image_origin = ImageOrigin::Search;
+    if (rows.empty()) out.image_origin = ImageOrigin::Unknown;
     out.reserve(count);
     std::vector<std::uint16_t> kept_rows;
     for (std::size_t i = 0; i < count; ++i) {

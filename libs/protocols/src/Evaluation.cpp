@@ -72,13 +72,17 @@ class Inputs {
     if (protocol == "P2")
       trials = roomObjectTrials(room(protocol), {0.05, kRoomDensity}, kRoomResolution);
     if (protocol == "P3") {
-      trials = streetTrials(street(), kStreetEvery, kStreetDensity, kStreetResolution);
-      evaluation_.predictions = scoreOfPredictions(street());
+      trials = streetTrials(street(protocol), kStreetEvery, kStreetDensity, kStreetResolution);
+      evaluation_.predictions = scoreOfPredictions(street(protocol));
     }
+    if (protocol == "P7")
+      trials = knownStreetTrials(street(protocol), kStreetDensity, kStreetResolution);
     if (protocol == "P4")
       trials = structuredRoomTrials(world(request_.room_world, "room.yaml", protocol));
     if (protocol == "P5")
       trials = robotTrials(world(request_.robot_world, "campus.yaml", protocol));
+    if (protocol == "P8")
+      trials = movingTrials(world(request_.moving_world, "crossing.yaml", protocol));
     if (protocol == "P6")
       trials = roomRepetitionTrials(room(protocol), kRoomDensity, kRoomResolution);
     if (protocol == kParameterStudy)
@@ -103,9 +107,9 @@ class Inputs {
     return *room_;
   }
 
-  const Street& street() {
+  const Street& street(const std::string& protocol) {
     const std::string folder = folderOf(request_.data, isStreet, "semantickitti_08");
-    evaluation_.sources["P3"] = folder;
+    evaluation_.sources[protocol] = folder;
     if (!street_) {
       street_ = readStreet(folder, labelSet("semantickitti"));
       warn(street_->warnings);
@@ -200,6 +204,15 @@ const std::vector<ProtocolInfo>& allProtocols() {
       {"P6", "Room, repetition",
        "50 scans, each a random tenth of the room's points with 1 cm of noise, ds 0.10 m",
        "majority class of all points in each voxel of 0.05 m"},
+      {"P7", "Known street",
+       "the first and the last scan with the labels that a network predicted, ds 0.2 m; beams to "
+       "all ranges",
+       "of all scans within 50 m: voxels of 0.3 m with points have the majority class of the "
+       "labelled ones, those without that two samples of beams cross are free, no others count"},
+      {"P8", "What moved",
+       "simulated: a LiDAR that labels its points passes a crossing where people and cars go, stop "
+       "and go on",
+       "exact, of what stays"},
       {kParameterStudy, "Block depth and context threshold", "P1 at ds 0.10 m with see-csom",
        "as P1"}};
   return all;

@@ -98,6 +98,17 @@ Json figures(const VoxelFigures& voxels, bool classes, const LabelSet& labels) {
   return json;
 }
 
+Json toJson(const std::array<SightFigures, kSightSeconds.size()>& sight) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < sight.size(); ++i)
+    json.push_back({{"seconds", kSightSeconds[i]},
+                    {"left_by_movers", sight[i].left_by_movers},
+                    {"ghosts", sight[i].ghosts},
+                    {"stays", sight[i].stays},
+                    {"lost", sight[i].lost}});
+  return json;
+}
+
 }  // namespace
 
 Json toJson(const PointScore& score, const LabelSet& labels) {
@@ -127,6 +138,7 @@ Json toJson(const TrialResult& result, const LabelSet& labels) {
   json["scans"] = result.scans;
   json.update(figures(result.voxels, result.classes, labels));
   if (result.points) json.update(toJson(*result.points, labels));
+  if (result.sight) json["clear_sight"] = toJson(*result.sight);
   if (result.seen) json["seen"] = figures(*result.seen, result.classes, labels);
   json["ms_per_scan"] = result.ms_per_scan;
   return json;

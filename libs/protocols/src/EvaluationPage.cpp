@@ -138,6 +138,43 @@ void writeParameters(std::ostream& page, const Evaluation& evaluation) {
                                [](const TrialResult& r) { return r.ms_per_scan; })});
 }
 
+/// Lines over seconds of clear sight.
+ChartSeries lineOfSight(const TrialResult& result,
+                        const std::function<double(const SightFigures&)>& share) {
+  ChartSeries line{result.method, {}, ChartSeries::Marks::LineAndPoints, false};
+  for (std::size_t i = 0; i < kSightSeconds.size(); ++i)
+    line.points.push_back({kSightSeconds[i], 100 * share((*result.sight)[i])});
+  return line;
+}
+
+double shareOf(std::size_t part, std::size_t of) {
+  return of == 0 ? 0 : static_cast<double>(part) / static_cast<double>(of);
+}
+
+void writeSight(std::ostream& page, const Evaluation& evaluation) {
+  const Results results =
+      select(evaluation, [](const auto& r) { return r.protocol == "P8" && r.sight; });
+  if (results.empty()) return;
+  const ChartAxis seconds{"time of clear sight", "s", false, 0, std::nullopt};
+  XyChart ghosts{"Ghosts",
+                 "Voxels that something left and that are still occupied",
+                 seconds,
+                 percentAxis("of the voxels left"),
+                 {}};
+  XyChart lost{"Lost",
+               "Voxels in which something stays and that are free or unknown",
+               seconds,
+               {"of the voxels that stay", "%", false, 0, std::nullopt},
+               {}};
+  for (const TrialResult* result : results) {
+    ghosts.series.push_back(lineOfSight(
+        *result, [](const SightFigures& f) { return shareOf(f.ghosts, f.left_by_movers); }));
+    lost.series.push_back(
+        lineOfSight(*result, [](const SightFigures& f) { return shareOf(f.lost, f.stays); }));
+  }
+  page << "<h2>P8: what moved, and what stays</h2>\n" << toHtml(ghosts) << toHtml(lost);
+}
+
 std::string titleOf(const TrialResult& result) {
   return result.protocol + " " + (result.variant.empty() ? "" : result.variant + " ") +
          result.method;
@@ -145,8 +182,8 @@ std::string titleOf(const TrialResult& result) {
 
 void writeConfusions(std::ostream& page, const Evaluation& evaluation) {
   const Results results = select(evaluation, [](const auto& r) {
-    return r.classes && (r.protocol == "P3" || r.protocol == "P4" ||
-                         (r.protocol == "P1" && r.variant == "ds 0.10") ||
+    return r.classes && (r.protocol == "P3" || r.protocol == "P4" || r.protocol == "P7" ||
+                         r.protocol == "P8" || (r.protocol == "P1" && r.variant == "ds 0.10") ||
                          (r.protocol == "P5" && r.variant == "true poses"));
   });
   if (results.empty()) return;
@@ -186,6 +223,7 @@ std::string evaluationPage(const Evaluation& evaluation) {
                 "P6: the room again and again", {"scans", "", false, 0, std::nullopt},
                 [](const TrialResult& r) { return static_cast<double>(r.scans); });
   writeRocs(page, evaluation);
+  writeSight(page, evaluation);
   writeParameters(page, evaluation);
   writeConfusions(page, evaluation);
   writeLeftOut(page, evaluation);

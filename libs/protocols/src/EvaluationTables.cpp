@@ -200,6 +200,43 @@ std::string street(const Results& results, const std::optional<PointScore>& pred
   return table.text() + "All scores:\n\n" + pointCloudDetails(results, nullptr);
 }
 
+std::string knownStreet(const Results& results) {
+  return pointCloudDetails(results, nullptr) + "Occupancy, free space among it:\n\n" +
+         exactDetails(results, false, allVoxels);
+}
+
+std::string share(std::size_t part, std::size_t of) {
+  return of == 0 ? kNone
+                 : detail::fixed(100 * static_cast<double>(part) / static_cast<double>(of), 2);
+}
+
+std::string whatMoved(const Results& results) {
+  std::vector<std::string> header{"method"};
+  for (const char* what : {"ghosts", "lost"})
+    for (const double seconds : kSightSeconds)
+      header.push_back(what + (" " + fixed(seconds, 0)) + " s");
+  for (const char* name : {"w-avg IoU", "geom. IoU", "ms/scan"}) header.push_back(name);
+  MarkdownTable table(header);
+  for (const TrialResult* r : results) {
+    std::vector<std::string> row{r->method};
+    for (const SightFigures& f : *r->sight) row.push_back(share(f.ghosts, f.left_by_movers));
+    for (const SightFigures& f : *r->sight) row.push_back(share(f.lost, f.stays));
+    row.push_back(weightedIou(*r));
+    row.push_back(percent(r->voxels.score.geometricIou()));
+    row.push_back(milliseconds(r->ms_per_scan));
+    table.add(row);
+  }
+  std::string asked;
+  for (std::size_t i = 0; i < kSightSeconds.size(); ++i) {
+    const SightFigures& figures = (*results.front()->sight)[i];
+    asked += (i == 0 ? "" : ", ") + std::to_string(figures.left_by_movers) + " and " +
+             std::to_string(figures.stays) + " after " + fixed(kSightSeconds[i], 0) + " s";
+  }
+  return "Of the voxels that movers left, those still occupied; of those in which something stays, "
+         "those free or unknown, after so many seconds of clear sight [%]. Voxels asked about: " +
+         asked + ".\n\n" + table.text();
+}
+
 std::string structuredRoom(const Results& results) {
   MarkdownTable table({"method", "AUC", "paper", "TPR@0.2", "paper"});
   for (const TrialResult* r : results) {
@@ -303,6 +340,8 @@ std::string makeTables(const std::string& protocol, const Results& results,
   if (protocol == "P4") return structuredRoom(results);
   if (protocol == "P5") return robot(results);
   if (protocol == "P6") return repetition(results);
+  if (protocol == "P7") return knownStreet(results);
+  if (protocol == "P8") return whatMoved(results);
   return parameterStudy(results);
 }
 

@@ -9,13 +9,16 @@ void LabelledCloud::append(const LabelledCloud& other) {
   labels.insert(labels.end(), other.labels.begin(), other.labels.end());
 }
 
-Scan scanOf(const LabelledCloud& cloud, const Eigen::Vector3d& origin) {
+Scan scanOf(const LabelledCloud& cloud, const Eigen::Vector3d& origin, const RangeImage& image) {
   Scan scan;
   scan.origin = origin;
+  scan.image.column_step = image.column_step;
+  scan.image.columns_of_turn = image.columns_of_turn;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (cloud.labels[i] == kFreeClass) continue;
     scan.points.push_back((cloud.points[i] - origin).cast<float>());
     scan.labels.push_back(cloud.labels[i]);
+    if (!image.empty()) scan.image.pixels.push_back(image.pixels[i]);
   }
   return scan;
 }

@@ -15,7 +15,7 @@ class LogAsScans {
       : survey_(surveyRawlog(rawlog)),
         poses_(reading.poses, survey_),
         rules_(labels, reading.point_labels, "drop", "drop"),
-        adapter_(makeAdapter(reading.label_options, labels)) {
+        adapter_(makeAdapter(reading.label_options, labels, {true, 0})) {
     if (!survey_.end.complete) throw FileError(rawlog, survey_.end.reason);
   }
 
@@ -48,11 +48,14 @@ class LogAsScans {
     for (const AdaptedScan& given : adapted) {
       Scan scan;
       scan.origin = given.scan.origin;
+      scan.image = given.scan.image;
+      scan.image.pixels.clear();
       for (std::size_t i = 0; i < given.scan.points.size(); ++i) {
         // A pixel that shows nothing says nothing of a point: what was hit is not free.
         if (given.scan.labels[i] == kFreeClass) continue;
         scan.points.push_back(given.scan.points[i]);
         scan.labels.push_back(given.scan.labels[i]);
+        if (!given.scan.image.empty()) scan.image.pixels.push_back(given.scan.image.pixels[i]);
       }
       if (!scan.points.empty()) scans_.push_back(std::move(scan));
     }

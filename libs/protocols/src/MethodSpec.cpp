@@ -72,6 +72,9 @@ std::unique_ptr<Mapper> makeMapper(const MethodSpec& spec, const Options& given)
   }
   Options options = given;
   parse("method", spec.name, options.method);
+  // What a method makes of beams is its own: that of the configurations for the default one.
+  if (given.free_space.mode != FreeSpace::None && options.method == Options{}.method)
+    options.free_space.mode = FreeSpace::Projective;
   for (const auto& [key, value] : spec.settings) setOption(options, key, value);
   if (given.free_space.mode == FreeSpace::None) options.free_space.mode = FreeSpace::None;
   return std::make_unique<CsomMapper>(options);

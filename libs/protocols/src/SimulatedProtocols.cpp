@@ -3,6 +3,7 @@
 #include <csom/eval/GroundTruth.h>
 #include <csom/io/TemporaryFolder.h>
 #include <csom/protocols/LoggedScans.h>
+#include <csom/protocols/Sight.h>
 #include <csom/protocols/SimulatedProtocols.h>
 #include <csom/rawlog/Simulation.h>
 
@@ -90,17 +91,32 @@ LabelOptions camerasOf(const Scenario& scenario) {
   return options;
 }
 
-}  // namespace
-
-std::vector<Trial> structuredRoomTrials(const Scenario& scenario) {
+/// A trial whose sensors label their points themselves, with true poses.
+Trial selfLabelledTrial(const std::string& protocol, const Scenario& scenario) {
   const TemporaryFolder folder;
-  const std::string rawlog = folder.file("room.rawlog");
+  const std::string rawlog = folder.file("drive.rawlog");
   simulateRawlog(scenario, rawlog);
-  Trial trial = simulatedTrial("P4", scenario);
+  Trial trial = simulatedTrial(protocol, scenario);
   LogReading reading;
   reading.point_labels = PointLabels::ByIntensity;
   reading.poses = {PoseChoice::Kind::RobotPose, kTruthPoseLabel};
   trial.scans = scansOf(rawlog, scenario, reading);
+  return trial;
+}
+
+}  // namespace
+
+std::vector<Trial> structuredRoomTrials(const Scenario& scenario) {
+  return {selfLabelledTrial("P4", scenario)};
+}
+
+std::vector<Trial> movingTrials(const Scenario& scenario) {
+  if (scenario.world.movingSolids().empty())
+    throw ConfigError(scenario.file + ": nothing moves; give a solid `moves`");
+  Trial trial = selfLabelledTrial("P8", scenario);
+  trial.options.free_space.mode = FreeSpace::Raycast;
+  trial.sight = std::make_shared<std::vector<SightCheck>>(
+      planSightChecks(scenario, *trial.scans, trial.options.resolution));
   return {trial};
 }
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csom/core/Error.h>
+#include <csom/core/FindRangeImage.h>
 #include <csom/io/KittiReader.h>
 #include <csom/io/TrajectoryFile.h>
 #include <csom/protocols/StreetProtocol.h>
 #include <csom/rawlog/Import.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace csom {
 namespace {
@@ -35,8 +38,10 @@ class StreetFolder {
     const Eigen::Isometry3d pose = *camera_poses_[number] * camera_from_velodyne_;
     StreetScan scan;
     scan.origin = pose.translation();
-    for (const Eigen::Vector3f& point : readKittiScan(file.string()).points)
+    const KittiScan seen = readKittiScan(file.string());
+    for (const Eigen::Vector3f& point : seen.points)
       scan.points.push_back(pose * point.cast<double>());
+    if (auto image = findRangeImage(seen.points)) scan.image = *std::move(image);
     scan.labels = classesOf(file, "labels", scan.points.size());
     if (predictions_) scan.predictions = classesOf(file, "predictions", scan.points.size());
     return scan;
@@ -93,26 +98,49 @@ LabelledCloud labelledPoints(const Street& street) {
   return all;
 }
 
-std::vector<Trial> streetTrials(const Street& street, std::size_t every, double density,
-                                double resolution) {
-  if (every == 0) throw std::invalid_argument("every = 0: must be at least 1");
+namespace {
+
+/// What P3 and P7 have in common: all but which scans are mapped, and the truth.
+Trial streetTrial(const Street& street, const std::string& protocol, double density,
+                  double resolution) {
   Trial trial;
-  trial.protocol = "P3";
+  trial.protocol = protocol;
   trial.labels = street.labels;
   trial.options.number_of_classes = street.labels.numberOfClasses();
   trial.options.resolution = resolution;
   trial.options.scan.ds_resolution = density;
   trial.options.free_space.mode = FreeSpace::None;
-  LabelledCloud all = labelledPoints(street);
-  std::vector<Scan> scans;
+  trial.points = std::make_shared<LabelledCloud>(labelledPoints(street));
+  return trial;
+}
+
+/// The scans 0, `every`, 2·`every` … as the network labels them.
+std::shared_ptr<const std::vector<Scan>> predictedScans(const Street& street, std::size_t every) {
+  auto scans = std::make_shared<std::vector<Scan>>();
   for (std::size_t i = 0; i < street.scans.size(); i += every) {
     const StreetScan& scan = street.scans[i];
-    scans.push_back(scanOf({scan.points, scan.predictions}, scan.origin));
+    scans->push_back(scanOf({scan.points, scan.predictions}, scan.origin, scan.image));
   }
-  trial.truth =
-      std::make_shared<VoxelTruth>(computeTruth(all, resolution, trial.options.number_of_classes));
-  trial.points = std::make_shared<LabelledCloud>(std::move(all));
-  trial.scans = std::make_shared<std::vector<Scan>>(std::move(scans));
+  return scans;
+}
+
+}  // namespace
+
+std::vector<Trial> streetTrials(const Street& street, std::size_t every, double density,
+                                double resolution) {
+  if (every == 0) throw std::invalid_argument("every = 0: must be at least 1");
+  Trial trial = streetTrial(street, "P3", density, resolution);
+  trial.scans = predictedScans(street, every);
+  trial.truth = std::make_shared<VoxelTruth>(
+      computeTruth(*trial.points, resolution, trial.options.number_of_classes));
+  return {trial};
+}
+
+std::vector<Trial> knownStreetTrials(const Street& street, double density, double resolution) {
+  Trial trial = streetTrial(street, "P7", density, resolution);
+  trial.options.free_space.mode = FreeSpace::Raycast;
+  trial.scans = predictedScans(street, std::max<std::size_t>(1, street.scans.size() - 1));
+  trial.truth = std::make_shared<VoxelTruth>(computeStreetTruth(street, resolution));
   return {trial};
 }
 

@@ -46,6 +46,34 @@ VoxelFigures computeFigures(const Mapper& map, const VoxelTruth& truth) {
   return figures;
 }
 
+/// Asks a map what the trial wants to know while its scans come.
+class SightInterview {
+ public:
+  explicit SightInterview(const std::vector<SightCheck>& checks)
+      : checks_(checks), next_(checks.begin()) {}
+
+  void ask(const Mapper& map, std::size_t scans) {
+    for (; next_ != checks_.end() && next_->scans <= scans; ++next_) {
+      const VoxelEstimate voxel = map.at(next_->center);
+      const bool occupied = voxel.known && voxel.class_id != kFreeClass;
+      SightFigures& figures = figures_[next_->interval];
+      if (next_->moved) {
+        ++figures.left_by_movers;
+        if (occupied) ++figures.ghosts;
+      } else {
+        ++figures.stays;
+        if (!occupied) ++figures.lost;
+      }
+    }
+  }
+  const std::array<SightFigures, kSightSeconds.size()>& figures() const { return figures_; }
+
+ private:
+  const std::vector<SightCheck>& checks_;
+  std::vector<SightCheck>::const_iterator next_;
+  std::array<SightFigures, kSightSeconds.size()> figures_{};
+};
+
 TrialResult scored(const Mapper& map, const Trial& trial) {
   TrialResult result;
   result.protocol = trial.protocol;
@@ -64,10 +92,13 @@ std::vector<TrialResult> runTrial(const Trial& trial, const MethodSpec& method) 
   const std::unique_ptr<Mapper> map = makeMapper(method, trial.options);
   std::vector<TrialResult> results;
   std::vector<double> times;
+  std::optional<SightInterview> sight;
+  if (trial.sight) sight.emplace(*trial.sight);
   for (const Scan& scan : *trial.scans) {
     const double before = threadMilliseconds();
     map->insert(scan);
     times.push_back(threadMilliseconds() - before);
+    if (sight) sight->ask(*map, times.size());
     const bool last = times.size() == trial.scans->size();
     const bool checked = std::find(trial.checkpoints.begin(), trial.checkpoints.end(),
                                    times.size()) != trial.checkpoints.end();
@@ -76,6 +107,7 @@ std::vector<TrialResult> runTrial(const Trial& trial, const MethodSpec& method) 
     results.back().method = method.text;
     results.back().settings = method.settings;
     results.back().scans = times.size();
+    if (sight) results.back().sight = sight->figures();
     results.back().ms_per_scan = median(times);
   }
   return results;

@@ -219,7 +219,7 @@ void writeKept(std::ostream& page, const RunRecord& record) {
     page << "<p>" << formatCount(record.no_returns, "beam")
          << " hit nothing (range 0, or beyond what the sensor measures).</p>\n";
   if (const std::string images = describeImages(record.images); !images.empty())
-    page << "<p>What lies beside what: " << images << ".</p>\n";
+    page << "<p>Which beams are next to each other: " << images << ".</p>\n";
 }
 
 void writeRefused(std::ostream& page, const RunRecord& record) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 
 #include "util/Parallel.h"
 
@@ -126,31 +127,35 @@ class Arrangement {
 
   /// For each beam of `row` the beam of `other` beside it.
   void linkRows(std::size_t row, std::size_t other, std::vector<BeamId>& links) const {
-    const std::size_t begin = out_.row_begin[other];
-    const std::size_t end = out_.row_begin[other + 1];
+    const std::int64_t begin = out_.row_begin[other];
+    const std::int64_t end = out_.row_begin[other + 1];
     if (begin == end) return;
-    std::size_t nearest = begin;
+    const std::int32_t* const columns = out_.columns.data();
+    // The ends of the row once more, a turn before and behind it.
+    const std::int64_t turn = image_.columns_of_turn;
+    const std::int64_t none = std::numeric_limits<std::int64_t>::max() / 2;
+    const std::int64_t first_again = turn > 0 ? columns[begin] + turn : none;
+    const std::int64_t last_before = turn > 0 ? columns[end - 1] - turn : -none;
+    std::int64_t nearest = begin;
+    std::int64_t behind = begin + 1 < end ? columns[begin + 1] : none;
     for (std::size_t beam = out_.row_begin[row]; beam < out_.row_begin[row + 1]; ++beam) {
-      const std::int64_t column = columnOf(beam);
-      const auto distance = [&](std::size_t candidate) {
-        return std::abs(columnOf(candidate) - column);
-      };
-      while (nearest + 1 < end && distance(nearest + 1) < distance(nearest)) ++nearest;
-      std::size_t best = nearest;
-      std::int64_t columns = distance(nearest);
-      if (image_.columns_of_turn > 0) {  // the other end of the row may be nearer
-        const std::int64_t to_first = columnOf(begin) + image_.columns_of_turn - column;
-        const std::int64_t to_last = column + image_.columns_of_turn - columnOf(end - 1);
-        if (to_first < columns) {
-          best = begin;
-          columns = to_first;
-        }
-        if (to_last < columns) {
-          best = end - 1;
-          columns = to_last;
-        }
+      const std::int64_t column = columns[beam];
+      std::int64_t distance = std::abs(columns[nearest] - column);
+      while (std::abs(behind - column) < distance) {
+        distance = std::abs(behind - column);
+        ++nearest;
+        behind = nearest + 1 < end ? columns[nearest + 1] : none;
       }
-      if (isNear(columns, kAboveTenths)) links[beam] = static_cast<BeamId>(best);
+      std::int64_t best = nearest;
+      if (first_again - column < distance) {
+        best = begin;
+        distance = first_again - column;
+      }
+      if (column - last_before < distance) {
+        best = end - 1;
+        distance = column - last_before;
+      }
+      if (isNear(distance, kAboveTenths)) links[beam] = static_cast<BeamId>(best);
     }
   }
 

@@ -53,8 +53,7 @@ bool DepthCube::isAllBehind(const CubeWindow& window) const {
   const float* const pixels = level == 0 ? face.nearest.level(0) : face.farthest.level(level);
   for (int v = window.first_v >> level; v <= window.last_v >> level; ++v)
     for (int u = window.first_u >> level; u <= window.last_u >> level; ++u) {
-      const float inverse = pixels[v * side + u];
-      if (inverse != 0 && inverse <= limit) return false;
+      if (pixels[v * side + u] <= limit) return false;
     }
   return true;
 }
@@ -197,7 +196,7 @@ std::uint32_t rowInFront(const ChunkView& view, std::size_t y, std::size_t z,
     for (std::size_t lane = 0; lane < kLanes; ++lane) here[lane] = image.squares[square[lane]];
     inverse = inverse > here ? inverse : here;
   }
-  IntLanes passes = (inverse <= view.far[depth]) & (inverse > 0);
+  IntLanes passes = inverse <= view.far[depth];
   if (!one_face) passes |= view.seen[8 * z + y] == 0;
   std::uint32_t bits = 0;
   for (std::size_t lane = 0; lane < kLanes; ++lane)
@@ -209,8 +208,7 @@ std::uint32_t rowInFront(const ChunkView& view, std::size_t y, std::size_t z,
 
 void DepthCube::keepInFront(const ChunkBoxes& boxes, int face, bool one_face,
                             std::array<std::uint64_t, kVoxelsPerChunk / 64>& voxels) const {
-  // Nothing was drawn: squares of zeros.
-  static constexpr float kNothing = 0;
+  static constexpr float kNothing = ImageLevels::kNothing;  // of a face without any drawing
   const SquareImage image = faceAt(face).empty ? SquareImage{&kNothing, 0, 0}
                                                : SquareImage{faceAt(face).nearest.level(0),
                                                              grid_.side() / 2, grid_.levels() - 2};

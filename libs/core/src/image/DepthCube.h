@@ -37,9 +37,9 @@ class CSOM_OF_ONE_BINARY DepthCube {
 
   const CubeGrid& grid() const { return grid_; }
 
-  /// Of the voxels of a chunk, a bit each, takes out those that do not lie in front of all that was
-  /// drawn in their window, or in whose window nothing was. Asks those whose centre is seen through
-  /// the face; all of them if they are all seen through this `one_face`.
+  /// Of the voxels of a chunk, a bit each, takes out those that do not lie in front of what was
+  /// drawn in all of their window. Asks those whose centre is seen through the face; all of them if
+  /// they are all seen through this `one_face`.
   ///
   /// A window is looked at through squares of pixels: of the largest edge 2^n that is no longer
   /// than its longer side, at each of its corners, inside it along that side.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace csom::detail {
@@ -26,10 +27,13 @@ struct PixelRectangle {
   }
 };
 
-/// Levels of square images, row after row, one level after the other: zeros but for what is
+/// Levels of square images, row after row, one level after the other: kNothing but for what is
 /// written. Memory is kept from scan to scan, and cleared where it was written.
 class ImageLevels {
  public:
+  /// Nearer than all that can be drawn.
+  static constexpr float kNothing = std::numeric_limits<float>::infinity();
+
   /// How many pixels an edge has, from the lowest level up.
   enum class Sides { Equal, Halved };
   explicit ImageLevels(Sides sides) : halved_(sides == Sides::Halved) {}
@@ -41,7 +45,7 @@ class ImageLevels {
     }
     side_ = side;
     levels_ = levels;
-    pixels_.assign(offset(levels), 0);
+    pixels_.assign(offset(levels), kNothing);
     written_ = {};
   }
   /// To be called before pixels of a level are written.
@@ -68,7 +72,7 @@ class ImageLevels {
     const std::size_t side = sideOf(level);
     float* const pixels = this->level(level);
     for (std::size_t v = written.first_v; v < written.end_v && !written.empty(); ++v)
-      std::fill(pixels + v * side + written.first_u, pixels + v * side + written.end_u, 0.0F);
+      std::fill(pixels + v * side + written.first_u, pixels + v * side + written.end_u, kNothing);
     written = {};
   }
 
@@ -79,11 +83,12 @@ class ImageLevels {
   std::array<PixelRectangle, kMostLevels> written_{};
 };
 
-/// What is known about the pixels of one face: inverse depths, 0 where nothing was drawn.
+/// What is known about the pixels of one face: inverse depths.
 struct DepthFace {
   bool empty = true;  ///< nothing was drawn, and nothing below is set
-  /// The largest of squares of 2^level pixels an edge, for each pixel at which one begins; of as
-  /// much of it as lies in the image. Four of them, overlapping, cover any larger window.
+  /// The largest of squares of 2^level pixels an edge, for each pixel at which one begins: kNothing
+  /// if anything in it was not drawn. Of as much of it as lies in the image. Four of them,
+  /// overlapping, cover any larger window.
   ImageLevels nearest{ImageLevels::Sides::Equal};
   /// The smallest of what was drawn, each level of four pixels of the one below, the first one of
   /// the lowest level of `nearest`. Level 0 is not used.

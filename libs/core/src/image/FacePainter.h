@@ -67,8 +67,7 @@ class FacePainter {
 
   void closeGaps();
   void buildPyramids();
-  template <class Choose>
-  void shrink(ImageLevels& levels, int level, const Choose& choose) const;
+  void shrink(int level);
   void slide(int level);
 
   const CubeGrid& grid_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 
 #include "image/SurfaceWeights.h"
@@ -22,6 +23,15 @@ std::int32_t voxelOf(std::int32_t position) {
   return position >> HalfStepPosition::kBits;
 }
 
+/// Whether a segment passes through no other voxels than those of its ends, which have hits: one,
+/// or two side by side.
+bool isInVoxelsOfItsEnds(const HalfStepPosition& from, const HalfStepPosition& to) {
+  const auto apart = [](std::int32_t a, std::int32_t b) {
+    return std::abs(voxelOf(a) - voxelOf(b));
+  };
+  return apart(from.x, to.x) + apart(from.y, to.y) + apart(from.z, to.z) <= 1;
+}
+
 /// Points that divide a facet: their voxels and weights. Room for whole vectors.
 struct FacetPoints {
   static constexpr int kMost = kMostPieces - 1 + static_cast<int>(kLanes);
@@ -29,12 +39,34 @@ struct FacetPoints {
   std::array<std::uint32_t, kMost> weight;
 };
 
+/// Pieces of facets that single precision divides.
+constexpr std::int32_t kFewPieces = 41;
+
 /// One coordinate of the points from 1 to pieces − 1, eight at a time.
 ///
 /// `pieces` is odd, and so are the ends: no point lies on a border between voxels, all are at least
-/// 1/pieces of a unit away from it. What is left out of a step adds up to less than that.
-CSOM_INLINE void divide(std::int32_t from, std::int32_t to, std::int32_t pieces,
-                        std::int32_t* voxels) {
+/// 1/pieces of a unit away from it. Errors are smaller.
+CSOM_INLINE void divideFew(std::int32_t from, std::int32_t to, std::int32_t pieces,
+                           std::int32_t* voxels) {
+  // The ends are less than so many voxels apart; the fraction of a unit takes the other bits.
+  constexpr std::int32_t kMostApart = 18;
+  static_assert(kFewPieces * kPieceVoxels < kMostApart - 1);
+  constexpr std::int32_t kUnit = 1 << HalfStepPosition::kBits;
+  const float length = static_cast<float>(to - from) / static_cast<float>(pieces);
+  const float start = static_cast<float>((from & (kUnit - 1)) + kMostApart * kUnit);
+  const std::int32_t first_voxel = voxelOf(from) - kMostApart;
+  Lanes count{1, 2, 3, 4, 5, 6, 7, 8};
+  for (std::int32_t i = 1; i < pieces; i += static_cast<std::int32_t>(kLanes)) {
+    const IntLanes at = __builtin_convertvector(start + count * length, IntLanes);  // positive
+    const IntLanes lanes = (at >> HalfStepPosition::kBits) + first_voxel;
+    std::memcpy(voxels + i - 1, &lanes, sizeof lanes);
+    count += static_cast<float>(kLanes);
+  }
+}
+
+/// The same for any number of pieces. What is left out of a step adds up to less than 1/pieces.
+CSOM_INLINE void divideMany(std::int32_t from, std::int32_t to, std::int32_t pieces,
+                            std::int32_t* voxels) {
   using LongLanes = std::uint64_t __attribute__((vector_size(kLanes * sizeof(std::uint64_t))));
   constexpr int kFractionBits = 24;
   constexpr int kShift = kFractionBits + HalfStepPosition::kBits;
@@ -58,9 +90,15 @@ CSOM_INLINE void divide(std::int32_t from, std::int32_t to, std::int32_t pieces,
 CSOM_EVERY_PROCESSOR
 void dividePoints(const HalfStepPosition& from, const HalfStepPosition& to, std::int32_t pieces,
                   float piece, FacetPoints& points) {
-  divide(from.x, to.x, pieces, points.x.data());
-  divide(from.y, to.y, pieces, points.y.data());
-  divide(from.z, to.z, pieces, points.z.data());
+  if (pieces <= kFewPieces) {
+    divideFew(from.x, to.x, pieces, points.x.data());
+    divideFew(from.y, to.y, pieces, points.y.data());
+    divideFew(from.z, to.z, pieces, points.z.data());
+  } else {
+    divideMany(from.x, to.x, pieces, points.x.data());
+    divideMany(from.y, to.y, pieces, points.y.data());
+    divideMany(from.z, to.z, pieces, points.z.data());
+  }
   IntLanes count{1, 2, 3, 4, 5, 6, 7, 8};
   for (std::int32_t i = 1; i < pieces; i += static_cast<std::int32_t>(kLanes)) {
     const IntLanes to_end = pieces - count;
@@ -81,15 +119,16 @@ class FacetDrawing {
         surely_whole_(0.99F / (pieces_per_metre_ * pieces_per_metre_)) {}
 
   void draw(std::size_t a, std::size_t b) {
+    const HalfStepPosition& from = beams_.positions[beams_.neighbours.point[a]];
+    const HalfStepPosition& to = beams_.positions[beams_.neighbours.point[b]];
+    if (isInVoxelsOfItsEnds(from, to)) return;
     const float squared = squaredNorm(between(beams_.end(a), beams_.end(b)));
     if (squared < surely_whole_) return;  // one piece: nothing between the hits
     const float length = std::sqrt(squared);
-    const auto wanted = static_cast<std::int32_t>(
-        std::min(std::ceil(length * pieces_per_metre_), static_cast<float>(kMostPieces)));
-    const std::int32_t pieces = wanted | 1;
-    dividePoints(beams_.positions[beams_.neighbours.point[a]],
-                 beams_.positions[beams_.neighbours.point[b]], pieces,
-                 length / static_cast<float>(pieces), points_);
+    const float wanted = std::min(length * pieces_per_metre_, static_cast<float>(kMostPieces));
+    const auto whole = static_cast<std::int32_t>(wanted);  // towards 0: no call as std::ceil() is
+    const std::int32_t pieces = (whole + (static_cast<float>(whole) < wanted ? 1 : 0)) | 1;
+    dividePoints(from, to, pieces, length / static_cast<float>(pieces), points_);
     const auto half = static_cast<std::size_t>(pieces) / 2;
     vote(0, half, beams_.label[a]);
     vote(half, static_cast<std::size_t>(pieces) - 1, beams_.label[b]);

@@ -71,9 +71,11 @@ class ImageInference {
   }
 
  private:
+  /// Of some chunks, one after the other.
   struct Figures {
     std::size_t occupied = 0;
     std::size_t free = 0;
+    VoxelWord word;  ///< kept for its memory
   };
 
   /// Each part has words of its own: which part has what does not change their sum.
@@ -129,14 +131,7 @@ class ImageInference {
     ChunkIncrements out{{base.x + from_base.x, base.y + from_base.y, base.z + from_base.z}, {}, {}};
     if (!isAddressable(out.chunk)) return out;
     if ((last - 1)->part == ChunkSource::kFreePart) out.free = free_[(--last)->index].free;
-    VoxelWords several;
-    if (last - first == 1) {
-      appendWords(parts_[first->part], parts_[first->part].chunk(first->index), out, figures);
-    } else if (last - first > 1) {
-      for (const ChunkSource* source = first; source != last; ++source)
-        several.add(parts_[source->part], parts_[source->part].chunk(source->index));
-      appendWords(several, several.chunk(0), out, figures);
-    }
+    if (first != last) appendWords(first, last, out, figures);
     std::size_t free_voxels = 0;
     for (const std::uint64_t bits : out.free.voxels)
       free_voxels += static_cast<std::size_t>(__builtin_popcountll(bits));
@@ -146,20 +141,28 @@ class ImageInference {
   }
 
   /// Voxels with surface, which are therefore not free.
-  static void appendWords(const VoxelWords& words, const VoxelWords::Cells& cells,
-                          ChunkIncrements& out, Figures& figures) {
+  void appendWords(const ChunkSource* first, const ChunkSource* last, ChunkIncrements& out,
+                   Figures& figures) const {
     constexpr std::size_t kGroup = 8;
-    for (std::size_t first = 0; first < kVoxelsPerChunk; first += kGroup) {
+    VoxelWord& word = figures.word;
+    for (std::size_t group = 0; group < kVoxelsPerChunk; group += kGroup) {
       VoxelWords::Cell any = 0;
-      for (std::size_t i = 0; i < kGroup; ++i) any |= cells.cell[first + i];
+      for (const ChunkSource* source = first; source != last; ++source)
+        for (std::size_t i = 0; i < kGroup; ++i) any |= cellsOf(*source).cell[group + i];
       if (any == 0) continue;
-      for (std::size_t voxel = first; voxel < first + kGroup; ++voxel) {
-        if (cells.cell[voxel] == 0) continue;
-        words.appendWord(static_cast<std::uint16_t>(voxel), cells.cell[voxel], out.increments);
+      for (std::size_t voxel = group; voxel < group + kGroup; ++voxel) {
+        word.clear();
+        for (const ChunkSource* source = first; source != last; ++source)
+          parts_[source->part].addTo(cellsOf(*source).cell[voxel], word);
+        if (word.empty()) continue;
+        word.appendTo(static_cast<std::uint16_t>(voxel), out.increments);
         out.free.voxels[voxel >> 6U] &= ~(std::uint64_t{1} << (voxel & 63U));
         ++figures.occupied;
       }
     }
+  }
+  const VoxelWords::Cells& cellsOf(const ChunkSource& source) const {
+    return parts_[source.part].chunk(source.index);
   }
 
   const PreparedScan& scan_;

@@ -16,6 +16,10 @@ namespace {
 /// Half the edge of the cube that must be free, in voxels: a tenth is left on each side.
 constexpr float kHalfEdge = 0.4F;
 
+/// What a scan says of a voxel that it looks through, of which it covers all [quanta]. Much more
+/// than of one that it hits: whatever was there has left, however long it stood.
+constexpr float kFreeWord = 16 * kFullWord;
+
 /// A cube of chunks: 2^level a side, at this position in units of it.
 struct Node {
   int level;
@@ -130,14 +134,15 @@ class FreeSpaceSearch {
     if (any) out.push_back({{base_.x + node.x, base_.y + node.y, base_.z + node.z}, {}, free});
   }
 
-  /// The word about the voxels of a chunk.
+  /// The word about the voxels of a chunk: for the share of a voxel's face that beams cover, where
+  /// they are farther apart than it is wide.
   std::uint32_t countAt(const CubeWindows& windows) const {
     float beams = 0;
     for (const CubeWindow& window : windows)
       beams =
           std::max(beams, cube_.spacing(window.face, 0.5F * (window.nearest + window.farthest)));
-    if (beams <= resolution_) return kFullWord;
-    return static_cast<std::uint32_t>(facetWeight(0.5F * (beams - resolution_)));
+    const float covered = beams <= resolution_ ? 1 : resolution_ / beams;
+    return static_cast<std::uint32_t>(kFreeWord * covered * covered + 0.5F);
   }
 
   const DepthCube& cube_;

@@ -2,7 +2,7 @@
 // How much a scan says about places between its beams.
 #pragma once
 
-#include "image/VoxelWords.h"
+#include "inference/BoundedWords.h"
 #include "util/Lanes.h"
 
 namespace csom::detail {
@@ -11,7 +11,7 @@ namespace csom::detail {
 /// down: of a number or a vector of lanes.
 template <class Distance>
 CSOM_INLINE Distance facetWeight(const Distance& distance) {
-  return 0.4F * kFullWord / (1 + distance * distance) + 0.5F;
+  return kPartOfWord * kFullWord / (1 + distance * distance) + 0.5F;
 }
 
 }  // namespace csom::detail

@@ -56,38 +56,38 @@ void VoxelWords::countHit(Cell& cell, ClassId class_id, std::uint64_t shares) {
   tallies_.push_back({shares, first, class_id});
 }
 
-void VoxelWords::add(const VoxelWords& other, const Cells& cells) {
-  select(cells.key);
-  for (std::size_t i = 0; i < cells.cell.size(); ++i) {
-    const Cell theirs = cells.cell[i];
-    if ((theirs & kHits) == 0) {
-      raise(last_->cell[i], theirs);
-      continue;
-    }
-    for (std::uint32_t tally = theirs & ~kHits; tally != kNone; tally = other.tallies_[tally].next)
-      countHit(last_->cell[i], other.tallies_[tally].class_id, other.tallies_[tally].shares);
-  }
-}
-
-void VoxelWords::appendWord(std::uint16_t voxel, Cell cell,
-                            std::vector<CountIncrement>& out) const {
+void VoxelWords::addTo(Cell cell, VoxelWord& word) const {
   if ((cell & kHits) == 0) {
-    out.push_back({voxel, static_cast<ClassId>(0xffU - (cell & 0xffU)), cell >> 8U});
+    raise(word.facet_, cell);
     return;
   }
-  const std::uint32_t first = cell & ~kHits;
-  std::uint64_t all = 0;
-  for (std::uint32_t tally = first; tally != kNone; tally = tallies_[tally].next)
-    all += tallies_[tally].shares;
-  const std::size_t begin = out.size();
-  for (std::uint32_t tally = first; tally != kNone; tally = tallies_[tally].next) {
-    const std::uint64_t count = (2 * kFullWord * tallies_[tally].shares + all) / (2 * all);
-    if (count > 0)
-      out.push_back({voxel, tallies_[tally].class_id, static_cast<std::uint32_t>(count)});
+  for (std::uint32_t tally = cell & ~kHits; tally != kNone; tally = tallies_[tally].next)
+    word.add(tallies_[tally].class_id, tallies_[tally].shares);
+}
+
+void VoxelWord::add(ClassId class_id, std::uint64_t shares) {
+  for (Hits& hits : hits_)
+    if (hits.class_id == class_id) {
+      hits.shares += shares;
+      return;
+    }
+  hits_.push_back({class_id, shares});
+}
+
+void VoxelWord::appendTo(std::uint16_t voxel, std::vector<CountIncrement>& out) {
+  if (hits_.empty()) {
+    out.push_back({voxel, static_cast<ClassId>(0xffU - (facet_ & 0xffU)), facet_ >> 8U});
+    return;
   }
-  std::sort(
-      out.begin() + static_cast<std::ptrdiff_t>(begin), out.end(),
-      [](const CountIncrement& a, const CountIncrement& b) { return a.class_id < b.class_id; });
+  if (hits_.size() > 1)
+    std::sort(hits_.begin(), hits_.end(),
+              [](const Hits& a, const Hits& b) { return a.class_id < b.class_id; });
+  std::uint64_t all = 0;
+  for (const Hits& hits : hits_) all += hits.shares;
+  for (const Hits& hits : hits_) {
+    const std::uint64_t count = (2 * kFullWord * hits.shares + all) / (2 * all);
+    if (count > 0) out.push_back({voxel, hits.class_id, static_cast<std::uint32_t>(count)});
+  }
 }
 
 }  // namespace csom::detail

@@ -15,6 +15,29 @@
 
 namespace csom::detail {
 
+/// What several collections say about one voxel.
+class VoxelWord {
+ public:
+  void clear() {
+    facet_ = 0;
+    hits_.clear();
+  }
+  bool empty() const { return facet_ == 0 && hits_.empty(); }
+  /// Appends it, by class. Not if it is empty.
+  void appendTo(std::uint16_t voxel, std::vector<CountIncrement>& out);
+
+ private:
+  friend class VoxelWords;
+  struct Hits {
+    ClassId class_id;
+    std::uint64_t shares;
+  };
+  void add(ClassId class_id, std::uint64_t shares);
+
+  std::uint32_t facet_ = 0;  ///< as in VoxelWords::Cell
+  std::vector<Hits> hits_;
+};
+
 /// Collects hits and facets, in any order. A voxel with hits has their classes, whatever facets
 /// pass through it; one without hits has the class of the facet with the most weight (ties: the
 /// lower class), and that weight.
@@ -43,10 +66,8 @@ class VoxelWords {
   /// In the order in which they came.
   std::size_t chunkCount() const { return chunks_.size(); }
   const Cells& chunk(std::size_t i) const { return *chunks_[i]; }
-  /// Adds what `other` says about one of its chunks.
-  void add(const VoxelWords& other, const Cells& cells);
-  /// Appends the word about a voxel whose cell is not 0, by class.
-  void appendWord(std::uint16_t voxel, Cell cell, std::vector<CountIncrement>& out) const;
+  /// Adds what a cell says to a word.
+  void addTo(Cell cell, VoxelWord& word) const;
 
  private:
   static constexpr Cell kHits = 0x80000000U;

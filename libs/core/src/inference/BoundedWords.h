@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One scan's word about one voxel is bounded, alike for occupied and free: scans without an image.
+// One scan's word about one voxel is bounded.
 #pragma once
 
 #include <csom/core/CountIncrements.h>
@@ -13,10 +13,12 @@ namespace csom::detail {
 constexpr std::uint32_t kFullWord = 4096;
 static_assert(kFullWord * kCountQuantum == 1);
 
-/// That of the beams that cross a voxel: each sees a part of it, as facets do [quanta]. 0.4.
-constexpr std::uint32_t kWordOfBeams = 1638;
+/// How much of it is said by what passes through a part of the voxel: facets, beams.
+constexpr float kPartOfWord = 0.4F;
+constexpr auto kWordOfBeams = static_cast<std::uint32_t>(kPartOfWord * kFullWord + 0.5F);
 
-/// Divides what is more than a full word among its classes in proportion.
+/// For scans without an image: divides what is more than a full word among its classes in
+/// proportion.
 void boundWords(ScanIncrements& increments);
 
 /// Takes out of the free voxels those in which the same scan sees more surface than free space: a

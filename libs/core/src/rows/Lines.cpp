@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
+
+#include "util/Median.h"
 
 namespace csom::detail {
 
@@ -15,9 +18,9 @@ constexpr std::size_t kFewest = 4;  ///< lines, and points of a line
 constexpr float kJump = 3;
 
 /// Of directions of length 1, or (0,0,0) where a point has none.
-class Directions3 {
+class UnitVectors {
  public:
-  explicit Directions3(const std::vector<Eigen::Vector3f>& points) {
+  explicit UnitVectors(const std::vector<Eigen::Vector3f>& points) {
     directions_.reserve(points.size());
     for (const Eigen::Vector3f& p : points) {
       const float norm = p.norm();
@@ -34,23 +37,18 @@ class Directions3 {
   std::vector<Eigen::Vector3f> directions_;
 };
 
-float medianOf(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Points of a line; 0 if these are no lines of one length.
-std::size_t lengthOfLines(const Directions3& directions) {
+std::size_t lengthOfLines(const UnitVectors& directions) {
   std::vector<float> steps;
   for (std::size_t i = 1; i < directions.size(); ++i)
     if (directions.has(i - 1) && directions.has(i)) steps.push_back(directions.between(i - 1, i));
   if (steps.size() < kFewest * kFewest) return 0;
   const float jump = kJump * medianOf(steps);
+  // Some lines begin or end with a beam that did not return: not every end is seen.
   std::size_t length = 0;
-  for (std::size_t i = 1; i < directions.size() && length == 0; ++i)
+  for (std::size_t i = 1; i < directions.size(); ++i)
     if (directions.has(i - 1) && directions.has(i) && directions.between(i - 1, i) > jump)
-      length = i;
+      length = std::gcd(length, i);
   if (length < kFewest || directions.size() % length != 0 || directions.size() < kFewest * length)
     return 0;
   for (std::size_t i = 1; i < directions.size(); ++i) {
@@ -62,7 +60,7 @@ std::size_t lengthOfLines(const Directions3& directions) {
 
 /// Whether points of the same place in adjacent lines are about equally far apart, nearer than
 /// lines are long.
-bool lieSideBySide(const Directions3& directions, std::size_t length) {
+bool lieSideBySide(const UnitVectors& directions, std::size_t length) {
   std::vector<float> steps;
   std::vector<float> lengths;
   for (std::size_t i = length; i < directions.size(); ++i)
@@ -80,7 +78,7 @@ bool lieSideBySide(const Directions3& directions, std::size_t length) {
 }
 
 /// Whether lines run along azimuths rather than up.
-bool runAlongAzimuths(const Directions3& directions, std::size_t length) {
+bool runAlongAzimuths(const UnitVectors& directions, std::size_t length) {
   float aside = 0;
   float up = 0;
   for (std::size_t i = 1; i < directions.size(); ++i) {
@@ -95,7 +93,7 @@ bool runAlongAzimuths(const Directions3& directions, std::size_t length) {
 }  // namespace
 
 std::optional<RangeImage> findLines(const std::vector<Eigen::Vector3f>& points) {
-  const Directions3 directions(points);
+  const UnitVectors directions(points);
   const std::size_t length = lengthOfLines(directions);
   if (length == 0 || points.size() / length >= RangeImage::kNoRow || length >= RangeImage::kNoRow ||
       !lieSideBySide(directions, length))

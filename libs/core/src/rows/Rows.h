@@ -2,6 +2,8 @@
 // Which beams of a cloud form a row.
 #pragma once
 
+#include <csom/core/RangeImage.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -13,7 +15,7 @@ namespace csom::detail {
 
 /// The row of each beam, numbered from 0; kInNoRow for those that fit into none.
 struct Rows {
-  static constexpr std::uint16_t kInNoRow = 0xffff;
+  static constexpr std::uint16_t kInNoRow = RangeImage::kNoRow;
 
   std::vector<std::uint16_t> of_beam;
   std::size_t count = 0;
@@ -36,10 +38,5 @@ std::optional<Rows> findRowsByElevation(const Directions& beams);
 /// False if they are none: too few or too many, less than nine in ten beams in rows, or rows that
 /// lie over one another, as those of several turns do.
 bool arrange(const Directions& beams, Rows& rows);
-
-/// Whether the beams of each row are evenly spaced, as a turning sensor measures them: at least
-/// half of them one step from the next; at most one in ten nearer than 0.4 steps but not at the
-/// same place, and at most four in ten there (a second return).
-bool areEvenlySpaced(const Directions& beams, const Rows& rows);
 
 }  // namespace csom::detail

@@ -16,6 +16,9 @@ MovingSolid::MovingSolid(const Solid& solid, std::vector<TimedOffset> places)
       throw std::invalid_argument("a place of a moving solid is not finite");
     if (i > 0 && places_[i].time <= places_[i - 1].time)
       throw std::invalid_argument("the times of a moving solid do not ascend");
+    const Eigen::Vector3d offset(places_[i].offset.x(), places_[i].offset.y(), 0);
+    const Eigen::AlignedBox3d here = solid_.bounds();
+    bounds_.extend(Eigen::AlignedBox3d(here.min() + offset, here.max() + offset));
   }
 }
 
@@ -39,16 +42,6 @@ std::optional<Solid::Entry> MovingSolid::enter(const Eigen::Vector3d& origin,
                                                const Eigen::Vector3d& direction,
                                                double time) const {
   return solid_.enter(origin - offsetAt(time), direction);
-}
-
-Eigen::AlignedBox3d MovingSolid::bounds() const {
-  Eigen::AlignedBox3d box;
-  for (const TimedOffset& place : places_) {
-    const Eigen::Vector3d offset(place.offset.x(), place.offset.y(), 0);
-    const Eigen::AlignedBox3d there = solid_.bounds();
-    box.extend(Eigen::AlignedBox3d(there.min() + offset, there.max() + offset));
-  }
-  return box;
 }
 
 }  // namespace csom

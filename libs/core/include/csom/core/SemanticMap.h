@@ -3,7 +3,6 @@
 #pragma once
 
 #include <csom/core/ChunkStore.h>
-#include <csom/core/CountIncrements.h>
 #include <csom/core/DirichletVoxel.h>
 #include <csom/core/Grid.h>
 #include <csom/core/Options.h>
@@ -17,8 +16,6 @@
 #include <utility>
 
 namespace csom {
-
-struct PreparedScan;
 
 /// Where a ray ended.
 struct RayHit {
@@ -40,7 +37,8 @@ namespace detail {
 struct InsertionMemory;
 
 /// What an insertion takes its temporary memory from, so that the next one need not ask the system
-/// for it again. Copies of a map begin without.
+/// for it again: some 30 MB after scans of a LiDAR. Copies of a map begin without; clear() gives it
+/// back.
 class InsertionMemoryOfMap {
  public:
   InsertionMemoryOfMap() = default;
@@ -51,6 +49,7 @@ class InsertionMemoryOfMap {
   ~InsertionMemoryOfMap() = default;
 
   InsertionMemory& get();
+  void giveBack() { memory_.reset(); }
 
  private:
   std::shared_ptr<InsertionMemory> memory_;
@@ -121,8 +120,6 @@ class SemanticMap {
   void addChunkRecord(const ChunkIndex& index, const void* bytes, std::size_t size);
 
  private:
-  ScanIncrements castFreeSpace(const PreparedScan& scan, ScanIncrements& surfaces,
-                               ScanReport& report) const;
   DirichletVoxel view(const Chunk::Entries& entries) const {
     return {options_.number_of_classes,
             options_.prior,

@@ -27,16 +27,18 @@ class MovingSolid {
   const Solid& solid() const { return solid_; }
   const std::vector<TimedOffset>& places() const { return places_; }
 
+  /// From where the solid is defined.
   Eigen::Vector3d offsetAt(double time) const;
   /// Solid::enter() at a time.
   std::optional<Solid::Entry> enter(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                     double time) const;
   /// The smallest box around it at all times.
-  Eigen::AlignedBox3d bounds() const;
+  const Eigen::AlignedBox3d& bounds() const { return bounds_; }
 
  private:
   Solid solid_;
   std::vector<TimedOffset> places_;
+  Eigen::AlignedBox3d bounds_;
 };
 
 }  // namespace csom

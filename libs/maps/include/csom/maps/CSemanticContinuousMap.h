@@ -247,7 +247,6 @@ class CSemanticContinuousMap : public mrpt::maps::CMetricMap {
 
   LabelRules labelRules() const;
   ObservationAdapter& adapter();
-  BeamRequest beamRequest() const;
   /// To be called when voxels change.
   void invalidateCaches();
   /// Replaces all but the MRPT-side options. Throws before it changes anything.

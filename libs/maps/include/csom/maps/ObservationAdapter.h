@@ -2,6 +2,7 @@
 // From observations to semantic points.
 #pragma once
 
+#include <csom/core/Options.h>
 #include <csom/core/types.h>
 #include <csom/io/RunStatistics.h>
 #include <csom/maps/LabelOptions.h>
@@ -26,7 +27,7 @@ class ByteWriter;
 struct AdaptedScan {
   Scan scan;
   LabelCounts labels;
-  ImageOrigin image_origin = ImageOrigin::None;  ///< None if it was searched for in vain
+  ImageOrigin image_origin = ImageOrigin::None;  ///< never Unknown
   std::size_t no_returns = 0;                    ///< see SensorPoints
   double timestamp = 0;                          ///< seconds since 1970 (UTC); 0 if unknown
   std::string sensor_label;
@@ -42,6 +43,8 @@ struct BeamRequest {
   /// 0: they do not.
   double free_range = 0;
 };
+/// What a map with these options wants to know.
+BeamRequest beamsOf(const Options& options);
 
 /// Turns observations into scans of labelled points. Labels may arrive with another observation
 /// than the points: an adapter may keep an observation and return its scan when the missing part is
@@ -49,6 +52,7 @@ struct BeamRequest {
 /// Not thread-safe.
 class ObservationAdapter {
  public:
+  explicit ObservationAdapter(const BeamRequest& beams) : beams_(beams) {}
   virtual ~ObservationAdapter() = default;
   /// Nothing: an observation of a kind that this adapter cannot use. Otherwise the scans that are
   /// complete now, in the order of their observations; none if the observation is kept for later.
@@ -64,9 +68,6 @@ class ObservationAdapter {
   virtual std::vector<AdaptedScan> takeFinished() { return {}; }
   /// Null if it uses no cameras. Valid until the next call.
   virtual const CameraStatistics* cameraStatistics() const { return nullptr; }
-
-  /// Of the scans that it returns from now on.
-  void setBeamRequest(const BeamRequest& request) { beam_request_ = request; }
 
   // For adapters that use networks; the others have nothing to do.
   /// Loads them now rather than at the first image. Throws FileError.
@@ -84,16 +85,19 @@ class ObservationAdapter {
   virtual void readFrom(ByteReader& in, std::uint8_t version) = 0;
 
  protected:
-  const BeamRequest& beamRequest() const { return beam_request_; }
+  ObservationAdapter(const ObservationAdapter&) = default;
+  ObservationAdapter& operator=(const ObservationAdapter&) = default;
+  const BeamRequest& beams() const { return beams_; }
 
  private:
-  BeamRequest beam_request_;
+  BeamRequest beams_;
 };
 
 /// The adapter for observations that carry their labels themselves, point by point or pixel by
 /// pixel: one observation in, one scan out.
 class SelfLabelledAdapter : public ObservationAdapter {
  public:
+  explicit SelfLabelledAdapter(const BeamRequest& beams = {}) : ObservationAdapter(beams) {}
   std::optional<std::vector<AdaptedScan>> adapt(const mrpt::obs::CObservation& observation,
                                                 const Eigen::Isometry3d& robot_pose,
                                                 const LabelRules& rules) override;
@@ -105,8 +109,8 @@ class SelfLabelledAdapter : public ObservationAdapter {
 
 /// The adapter for these options. Throws ConfigError or FileError if a network is described wrongly
 /// or missing.
-std::unique_ptr<ObservationAdapter> makeAdapter(const LabelOptions& options,
-                                                const LabelSet& labels);
+std::unique_ptr<ObservationAdapter> makeAdapter(const LabelOptions& options, const LabelSet& labels,
+                                                const BeamRequest& beams);
 
 /// Seconds since 1970; 0 if the observation has no time stamp.
 double secondsSince1970(const mrpt::obs::CObservation& observation);
@@ -114,10 +118,10 @@ double secondsSince1970(const mrpt::obs::CObservation& observation);
 /// The scan of one observation's points: in the frame of the map, axes parallel to it, relative to
 /// the sensor, points without a usable label left out and counted.
 AdaptedScan makeScan(const SensorPoints& points, const Eigen::Isometry3d& robot_pose,
-                     const LabelRules& rules, const BeamRequest& request);
+                     const LabelRules& rules, const BeamRequest& beams);
 
-/// Gives points that may have an image theirs, if one is wanted and can be found; else their origin
-/// becomes ImageOrigin::None.
-void searchForImage(const BeamRequest& request, SensorPoints& points);
+/// Gives points of ImageOrigin::Unknown their image, if one is wanted and can be found; else their
+/// origin becomes None.
+void searchForImage(const BeamRequest& beams, SensorPoints& points);
 
 }  // namespace csom

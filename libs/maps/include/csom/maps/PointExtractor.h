@@ -15,9 +15,10 @@ namespace csom {
 
 /// Which points of an observation lie beside each other.
 enum class ImageOrigin {
-  None,    ///< not known, and there is no way to tell
-  Sensor,  ///< the observation says it
-  Search,  ///< not known, but the points may be in the order of a turning sensor
+  None,     ///< there is no way to tell
+  Sensor,   ///< the observation says it
+  Unknown,  ///< the order of the points may tell it: nobody has looked yet
+  Found,    ///< the order of the points, or their elevations, have told it
 };
 
 /// A beam that nothing has thrown back.
@@ -36,9 +37,9 @@ struct SensorPoints {
   std::vector<Eigen::Vector3f> points;  ///< [m]; may hold non-finite values, but never (0,0,0)
   std::vector<PointLabel> labels;       ///< as many as points
   ImageOrigin image_origin = ImageOrigin::None;
-  RangeImage image;  ///< of ImageOrigin::Sensor; else empty
-  /// Of ImageOrigin::Search: how many beams the observation lists before each point, the points
-  /// themselves not counted: those that returned nothing.
+  RangeImage image;  ///< of ImageOrigin::Sensor and Found; else empty
+  /// Of points that came as ImageOrigin::Unknown: how many beams the observation lists before each
+  /// point, the points themselves not counted: those that returned nothing.
   std::vector<std::uint32_t> no_returns_before;
   /// Beams that hit nothing and that the observation lists all the same.
   std::size_t no_returns = 0;
@@ -57,7 +58,7 @@ struct SensorPoints {
     }
     points.push_back(point);
     labels.push_back(label);
-    if (image_origin == ImageOrigin::Search)
+    if (image_origin == ImageOrigin::Unknown)
       no_returns_before.push_back(static_cast<std::uint32_t>(no_returns));
   }
   /// With its place in the image: all points or none have one.

@@ -21,7 +21,7 @@ struct ProtocolInfo {
   std::string truth;  ///< a sentence
 };
 
-/// P1 … P6, and the study of block depth and context threshold.
+/// P1 … P8, and the study of block depth and context threshold.
 const std::vector<ProtocolInfo>& allProtocols();
 constexpr const char* kParameterStudy = "parameters";
 
@@ -31,9 +31,10 @@ struct EvaluationRequest {
   /// Holds stanford_conference/ and semantickitti_08/, or is itself a room (*.pcd) or a street
   /// (velodyne/); empty: there is none.
   std::string data;
-  std::string room_world;   ///< world file of P4; empty: the structured room that is installed
-  std::string robot_world;  ///< world file of P5; empty: the campus that is installed
-  int threads = 1;          ///< trials that run at a time; does not change a score
+  std::string room_world;    ///< world file of P4; empty: the structured room that is installed
+  std::string robot_world;   ///< world file of P5; empty: the campus that is installed
+  std::string moving_world;  ///< world file of P8; empty: the crossing that is installed
+  int threads = 1;           ///< trials that run at a time; does not change a score
 };
 
 struct LeftOutProtocol {

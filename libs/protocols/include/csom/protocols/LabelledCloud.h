@@ -27,8 +27,10 @@ struct LabelledCloud {
   std::size_t size() const { return points.size(); }
 };
 
-/// The points that have a label, as seen from `origin`.
-Scan scanOf(const LabelledCloud& cloud, const Eigen::Vector3d& origin);
+/// The points that have a label, as seen from `origin`; with `image`, which is that of all points,
+/// the pixels of these.
+Scan scanOf(const LabelledCloud& cloud, const Eigen::Vector3d& origin,
+            const RangeImage& image = {});
 
 /// The majority class (ties: the lower id) of the labelled points in each voxel. Voxels that hold
 /// points but no labelled one are left out. Throws std::invalid_argument if there is no labelled

@@ -28,7 +28,8 @@ struct MethodSpec {
 std::vector<std::string> defaultMethods();
 
 /// An empty map of this method. `options` are those of the trial; settings go before them, but for
-/// free space where the trial has none. Throws OptionError.
+/// free space where the trial has none. Where it has some, that of the default method is
+/// projective, as in the configurations. Throws OptionError.
 std::unique_ptr<Mapper> makeMapper(const MethodSpec& spec, const Options& options);
 
 }  // namespace csom

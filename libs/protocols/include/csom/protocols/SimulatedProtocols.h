@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// P4 and P5: simulated worlds, whose truth is exact.
+// P4, P5 and P8: simulated worlds, whose truth is exact.
 #pragma once
 
 #include <csom/eval/Scenario.h>
@@ -17,5 +17,10 @@ std::vector<Trial> structuredRoomTrials(const Scenario& scenario);
 /// ids, and nothing else does; once with the true poses and once with the odometry of the scenario.
 /// Throws ConfigError if the scenario has no camera.
 std::vector<Trial> robotTrials(const Scenario& scenario);
+
+/// P8: the LiDAR of the scenario labels its points itself, true poses; the truth is that of what
+/// stays, and voxels are asked about once they were in clear sight (Sight.h). Throws ConfigError if
+/// nothing moves, and as planSightChecks() does.
+std::vector<Trial> movingTrials(const Scenario& scenario);
 
 }  // namespace csom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// P3: a street, mapped from what a network says of every second scan.
+// P3 and P7: a street, mapped from what a network says of some of its scans.
 #pragma once
 
 #include <csom/protocols/Trial.h>
@@ -16,6 +16,7 @@ struct StreetScan {
   std::vector<Eigen::Vector3d> points;
   std::vector<ClassId> labels;       ///< kFreeClass: unlabelled
   std::vector<ClassId> predictions;  ///< kFreeClass: unlabelled; empty: not read
+  RangeImage image;                  ///< of all points, or empty
 };
 
 struct Street {
@@ -39,6 +40,19 @@ LabelledCloud labelledPoints(const Street& street);
 /// the truth are the labels of all scans.
 std::vector<Trial> streetTrials(const Street& street, std::size_t every, double density,
                                 double resolution);
+
+/// The range up to which P7 judges what beams tell [m].
+constexpr double kJudgedRange = 50;
+
+/// P7: maps the first and the last scan with the network's labels, and judges the voxels of which
+/// all scans together know what they are: see computeStreetTruth().
+std::vector<Trial> knownStreetTrials(const Street& street, double density, double resolution);
+
+/// What the points within kJudgedRange of their sensor tell. A voxel that holds labelled ones is
+/// occupied by their majority class; one without any point, in which at least two samples of beams
+/// lie, is free; all others are left out. Beams are sampled every 0.8 voxels from 1.5 m up to one
+/// voxel before their point. Throws std::invalid_argument if there is no labelled point.
+VoxelTruth computeStreetTruth(const Street& street, double resolution);
 
 /// The network's own labels against the truth, of all scans: what a map must beat.
 PointScore scoreOfPredictions(const Street& street);

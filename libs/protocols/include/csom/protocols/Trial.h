@@ -8,7 +8,9 @@
 #include <csom/io/LabelSet.h>
 #include <csom/protocols/LabelledCloud.h>
 #include <csom/protocols/MethodSpec.h>
+#include <csom/protocols/Sight.h>
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -30,6 +32,8 @@ struct Trial {
   /// The same without the voxels that no beam of the input reached; null: not scored apart.
   std::shared_ptr<const VoxelTruth> seen_truth;
   std::shared_ptr<const LabelledCloud> points;  ///< with true labels; null: points are not scored
+  /// What movers leave and what stays, asked while scans come; null: not asked.
+  std::shared_ptr<const std::vector<SightCheck>> sight;
   /// Numbers of scans after which the map is scored, ascending; empty: after the last one.
   std::vector<std::size_t> checkpoints;
 };
@@ -63,6 +67,8 @@ struct TrialResult {
   VoxelFigures voxels;
   std::optional<VoxelFigures> seen;  ///< over the trial's seen_truth
   std::optional<PointScore> points;  ///< of a method with classes, where points are scored
+  /// Of each of kSightSeconds, where the trial asks: up to now.
+  std::optional<std::array<SightFigures, kSightSeconds.size()>> sight;
   /// Median time of an insertion so far [ms]: of one thread's processor, so that what else runs
   /// does not count.
   double ms_per_scan = 0;

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <numeric>
-
-#include "rows/RowColumns.h"
 #include "rows/Rows.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "util/Median.h"
 
 namespace csom::detail {
 
 namespace {
-
-float medianOf(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// The elevation of a row and its number.
 using RowElevation = std::pair<float, std::size_t>;
@@ -66,28 +61,6 @@ bool arrange(const Directions& beams, Rows& rows) {
     if (row != Rows::kInNoRow) row = number[row];
   rows.count = order.size();
   return true;
-}
-
-bool areEvenlySpaced(const Directions& beams, const Rows& rows) {
-  RowColumns columns(rows.count);
-  for (std::size_t i = 0; i < beams.size(); ++i)
-    if (rows.of_beam[i] != Rows::kInNoRow) columns.add(rows.of_beam[i], beams.azimuth[i]);
-  const std::vector<std::uint32_t> steps = columns.countSteps();
-  const auto step = static_cast<std::size_t>(medianStep(steps));
-  std::size_t all = 0;
-  std::size_t even = 0;
-  std::size_t same = 0;
-  std::size_t near = 0;
-  for (std::size_t columns_apart = 0; columns_apart < steps.size(); ++columns_apart) {
-    const std::size_t count = steps[columns_apart];
-    all += count;
-    if (columns_apart <= 1 && step > 2)
-      same += count;
-    else if (10 * columns_apart < 4 * step)
-      near += count;
-    if (10 * columns_apart >= 6 * step && 10 * columns_apart <= 16 * step) even += count;
-  }
-  return 2 * even >= all - same && 10 * near <= all && 10 * same <= 4 * all;
 }
 
 }  // namespace csom::detail

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// csom-bench-replay: whether a map keeps up with its sensor while a network works beside it.
+// usage: csom-bench-replay [--quick] [--seconds S] [--network YAML [--model FILE] --image FILE]
+//
+// A scan comes every 0.1 s, those of csom-bench in turn, the drive going on and on. Of each its
+// rows are found and it is inserted by the default method with free space to 50 m, on all
+// processors. Its latency is the time from when it comes to when the map has it; it is late if the
+// next one has come by then. The network labels the image over and over, with what processor time
+// is left. Prints JSON.
+#include <csom/core/FindRangeImage.h>
+#include <csom/core/SemanticMap.h>
+#include <csom/vision/SegmentationNetwork.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "MapOptions.h"
+#include "Scans.h"
+
+namespace {
+
+using namespace csom::bench;
+using Clock = std::chrono::steady_clock;
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+constexpr std::chrono::milliseconds kPeriod{100};
+
+struct Arguments {
+  bool quick = false;
+  double seconds = 60;
+  std::string network, model, image;
+
+  Arguments(int argc, char** argv) {
+    for (int i = 1; i < argc; ++i) {
+      const std::string key = argv[i];
+      if (key == "--quick") {
+        quick = true;
+        seconds = 0.5;
+        continue;
+      }
+      if (i + 1 == argc) throw std::invalid_argument(key + ": is no option, or lacks its value");
+      const std::string value = argv[++i];
+      if (key == "--seconds")
+        seconds = std::stod(value);
+      else if (key == "--network")
+        network = value;
+      else if (key == "--model")
+        model = value;
+      else if (key == "--image")
+        image = value;
+      else
+        throw std::invalid_argument(key + ": is no option");
+    }
+    if (network.empty() != image.empty())
+      throw std::invalid_argument("--network and --image go together");
+  }
+};
+
+/// Labels one image again and again in a thread of the lowest priority.
+class NetworkBeside {
+ public:
+  explicit NetworkBeside(const Arguments& arguments) {
+    if (arguments.network.empty()) return;
+    const auto description = csom::NetworkDescription::load(arguments.network, arguments.model);
+    const cv::Mat image = cv::imread(arguments.image);
+    if (image.empty()) throw std::runtime_error(arguments.image + ": is no image");
+    thread_ = std::thread([this, description, image] { run(description, image); });
+    while (images_ == 0 && !end_) std::this_thread::yield();  // it is loaded by then
+    if (end_) stop();
+  }
+  ~NetworkBeside() {
+    end_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
+
+  std::size_t images() const { return images_; }
+  /// Throws what the network threw.
+  void stop() {
+    end_ = true;
+    if (thread_.joinable()) thread_.join();
+    if (failure_ != nullptr) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void run(const csom::NetworkDescription& description, const cv::Mat& image) {
+    try {
+      // Of this thread, and of those that OpenCV starts from it.
+      constexpr int kLowest = 19;
+      setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);
+      csom::SegmentationNetwork network(description);
+      for (; !end_; ++images_) network.segment({image}, {});
+    } catch (...) {
+      failure_ = std::current_exception();
+      end_ = true;
+    }
+  }
+
+  std::atomic<bool> end_{false};
+  std::atomic<std::size_t> images_{0};
+  std::exception_ptr failure_;
+  std::thread thread_;
+};
+
+/// What the sensor would send: points in its frame, where it was.
+class EndlessDrive {
+ public:
+  explicit EndlessDrive(const Drive& drive) {
+    for (std::size_t i = 0; i < drive.scans; ++i) scans_.push_back(drive.scan(i));
+    const Eigen::Vector3d driven =
+        scans_.back().pose.translation() - scans_.front().pose.translation();
+    const auto steps = static_cast<double>(std::max<std::size_t>(scans_.size() - 1, 1));
+    lap_ = driven * static_cast<double>(scans_.size()) / steps;
+  }
+  SensorScan scan(std::size_t i) const {
+    SensorScan scan = scans_[i % scans_.size()];
+    scan.pose.pretranslate(static_cast<double>(i / scans_.size()) * lap_);
+    return scan;
+  }
+
+ private:
+  std::vector<SensorScan> scans_;
+  Eigen::Vector3d lap_;
+};
+
+double quantile(const std::vector<double>& sorted, double q) {
+  return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const Arguments arguments(argc, argv);
+  const EndlessDrive drive(chooseDrive(arguments.quick));
+  csom::Options options = mapOptions();
+  options.method = csom::Options{}.method;
+  options.free_space.mode = csom::FreeSpace::Projective;
+  options.scan.max_range = 50;
+  options.threads = 0;
+  csom::SemanticMap map(options);
+  NetworkBeside network(arguments);
+
+  std::vector<double> latencies;
+  const std::size_t images_before = network.images();
+  const Clock::time_point start = Clock::now();
+  Clock::time_point comes = start;
+  for (std::size_t i = 0; Milliseconds(comes - start).count() < 1e3 * arguments.seconds; ++i) {
+    SensorScan scan = drive.scan(i);
+    std::this_thread::sleep_until(comes);
+    auto image = csom::findRangeImage(scan.points);
+    if (!image) throw std::runtime_error("the rows of a scan cannot be found");
+    scan.image = *std::move(image);
+    map.insert(inMap(scan));
+    latencies.push_back(Milliseconds(Clock::now() - comes).count());
+    comes += kPeriod;
+  }
+  const double seconds = Milliseconds(Clock::now() - start).count() / 1e3;
+  const auto images = static_cast<double>(network.images() - images_before);
+  network.stop();
+  std::sort(latencies.begin(), latencies.end());
+  const auto late = latencies.end() - std::upper_bound(latencies.begin(), latencies.end(),
+                                                       Milliseconds(kPeriod).count());
+  std::printf(
+      "{\"scans\": %zu, \"late\": %td, \"latency_ms\": {\"median\": %.1f, \"p90\": %.1f, \"p99\": "
+      "%.1f, \"max\": %.1f}, \"images_per_second\": %.2f, \"known_voxels\": %zu, \"map_mb\": "
+      "%.1f}\n",
+      latencies.size(), late, quantile(latencies, 0.5), quantile(latencies, 0.9),
+      quantile(latencies, 0.99), latencies.back(), images / seconds, map.knownVoxelCount(),
+      static_cast<double>(map.memoryBytes()) / 1e6);
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "csom-bench-replay: %s\n", error.what());
+  return 1;
+}
