@@ -129,16 +129,19 @@ class NaiveImageOracle {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   }
 
-  bool isSurface(int a, int b, int before, int after, bool across_rows) const {
-    if (a == kNone || b == kNone || label(a) == kFreeClass || label(b) == kFreeClass) return false;
+  /// No surface; surface with the class of the nearer end; with that of a or of b.
+  enum class Facet { None, Nearer, First, Second };
+  Facet facet(int a, int b, int before, int after, bool across_rows) const {
+    if (a == kNone || b == kNone || label(a) == kFreeClass || label(b) == kFreeClass)
+      return Facet::None;
     const Vector d = minus(at(b), at(a));
     const float dd = dot(d, d);
     const float short_length = 1.5F * r_;
-    if (dd < short_length * short_length) return true;
-    if (dd > 400.0F) return false;
+    if (dd < short_length * short_length) return Facet::Nearer;
+    if (dd > 400.0F) return Facet::None;
     const bool same = label(a) == label(b);
     const bool flat = across_rows && d[2] * d[2] < 0.08F * 0.08F * dd;
-    if (!same && !flat) return false;
+    if (!same && !flat) return Facet::None;
     const Vector c = cross(at(a), at(b));
     const float sine = dot(c, c);  // squared, × dd × the square of the farther range
     const float far = std::max(dot(at(a), at(a)), dot(at(b), at(b)));
@@ -157,15 +160,23 @@ class NaiveImageOracle {
       const float flat_deviation = 0.4F * r_;
       return same || deviation < flat_deviation * flat_deviation * ee;
     };
-    return continues(before, a) || continues(b, after);
+    if (!continues(before, a) && !continues(b, after)) return Facet::None;
+    const auto is_steep = [&](int from, int to) {
+      if (from == kNone || to == kNone) return false;
+      if (label(from) == kFreeClass || label(to) == kFreeClass) return false;
+      const Vector e = minus(at(to), at(from));
+      return e[2] * e[2] > 0.5F * 0.5F * dot(e, e);
+    };
+    if (same || is_steep(before, a) == is_steep(b, after)) return Facet::Nearer;
+    return is_steep(b, after) ? Facet::First : Facet::Second;
   }
-  bool toNext(int a) const {
+  Facet toNext(int a) const {
     const int b = beside(a, 1);
-    return isSurface(a, b, beside(a, -1), beside(b, 1), false);
+    return facet(a, b, beside(a, -1), beside(b, 1), false);
   }
-  bool toAbove(int a) const {
+  Facet toAbove(int a) const {
     const int b = across(a, 1);
-    return isSurface(a, b, across(a, -1), across(b, 1), true);
+    return facet(a, b, across(a, -1), across(b, 1), true);
   }
 
   /// Odd multiples of 1/256 of a voxel, from the base.
@@ -202,8 +213,8 @@ class NaiveImageOracle {
     }
     for (const std::size_t i : beams_) {
       const int a = static_cast<int>(i);
-      if (toNext(a)) draw(a, beside(a, 1));
-      if (toAbove(a)) draw(a, across(a, 1));
+      draw(a, beside(a, 1), toNext(a));
+      draw(a, across(a, 1), toAbove(a));
     }
     for (const auto& [cell, shares] : hits) {
       std::uint64_t all = 0;
@@ -219,7 +230,8 @@ class NaiveImageOracle {
     for (const auto& [cell, best] : facets_)
       if (hits.count(cell) == 0) out_[inMap(cell)] = {{best.second, best.first}};
   }
-  void draw(int a, int b) {
+  void draw(int a, int b, Facet facet) {
+    if (facet == Facet::None) return;
     const Vector d = minus(at(b), at(a));
     const float length = std::sqrt(dot(d, d));
     std::int64_t pieces =
@@ -234,7 +246,8 @@ class NaiveImageOracle {
       const bool near_a = 2 * i < pieces;
       const auto steps = static_cast<float>(near_a ? i : pieces - i);
       const std::uint32_t weight = weightAt(length / static_cast<float>(pieces) * steps);
-      const ClassId k = label(near_a ? a : b);
+      const bool of_a = facet == Facet::First || (facet == Facet::Nearer && near_a);
+      const ClassId k = label(of_a ? a : b);
       const auto found = facets_.find(cell);
       if (found == facets_.end() || weight > found->second.first ||
           (weight == found->second.first && k < found->second.second))
@@ -364,8 +377,9 @@ class NaiveImageOracle {
     const int u0 = first(*min_u), u1 = last(*max_u), v0 = first(*min_v), v1 = last(*max_v);
     out.spacings += spacing;
     ++out.drawings;
-    const bool surface = toNext(corners[0]) && toNext(corners[2]) && toAbove(corners[0]) &&
-                         toAbove(corners[1]) && across(corners[1], 1) == corners[3];
+    const bool surface = toNext(corners[0]) != Facet::None && toNext(corners[2]) != Facet::None &&
+                         toAbove(corners[0]) != Facet::None && toAbove(corners[1]) != Facet::None &&
+                         across(corners[1], 1) == corners[3];
     const bool small = u1 - u0 < 8 && v1 - v0 < 8;
     for (const std::array<std::size_t, 3>& t :
          {std::array<std::size_t, 3>{0, 1, 2}, std::array<std::size_t, 3>{1, 3, 2}}) {

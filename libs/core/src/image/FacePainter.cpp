@@ -150,8 +150,10 @@ void FacePainter::draw(const Corners& corners) {
 
 /// Whether all four sides are.
 bool FacePainter::isSurface(const Corners& corners) const {
-  return facets_.to_next[corners[0]] != 0 && facets_.to_next[corners[2]] != 0 &&
-         facets_.to_above[corners[0]] != 0 && facets_.to_above[corners[1]] != 0 &&
+  return facets_.to_next[corners[0]] != Facets::kNone &&
+         facets_.to_next[corners[2]] != Facets::kNone &&
+         facets_.to_above[corners[0]] != Facets::kNone &&
+         facets_.to_above[corners[1]] != Facets::kNone &&
          beams_.neighbours.above[corners[1]] == static_cast<BeamId>(corners[3]);
 }
 

@@ -118,7 +118,7 @@ class FacetDrawing {
         pieces_per_metre_(1 / (kPieceVoxels * static_cast<float>(options.resolution))),
         surely_whole_(0.99F / (pieces_per_metre_ * pieces_per_metre_)) {}
 
-  void draw(std::size_t a, std::size_t b) {
+  void draw(std::size_t a, std::size_t b, Facets::Kind kind) {
     const HalfStepPosition& from = beams_.positions[beams_.neighbours.point[a]];
     const HalfStepPosition& to = beams_.positions[beams_.neighbours.point[b]];
     if (isInVoxelsOfItsEnds(from, to)) return;
@@ -130,8 +130,9 @@ class FacetDrawing {
     const std::int32_t pieces = (whole + (static_cast<float>(whole) < wanted ? 1 : 0)) | 1;
     dividePoints(from, to, pieces, length / static_cast<float>(pieces), points_);
     const auto half = static_cast<std::size_t>(pieces) / 2;
-    vote(0, half, beams_.label[a]);
-    vote(half, static_cast<std::size_t>(pieces) - 1, beams_.label[b]);
+    vote(0, half, beams_.label[kind == Facets::kOfSecond ? b : a]);
+    vote(half, static_cast<std::size_t>(pieces) - 1,
+         beams_.label[kind == Facets::kOfFirst ? a : b]);
   }
 
  private:
@@ -183,8 +184,10 @@ void addFacets(const ImageBeams& beams, const Facets& facets, const Options& opt
   FacetDrawing drawing(beams, options, words);
   const BeamNeighbours& n = beams.neighbours;
   for (std::size_t i = begin; i < end; ++i) {
-    if (facets.to_next[i] != 0) drawing.draw(i, static_cast<std::size_t>(n.next[i]));
-    if (facets.to_above[i] != 0) drawing.draw(i, static_cast<std::size_t>(n.above[i]));
+    if (facets.to_next[i] != Facets::kNone)
+      drawing.draw(i, static_cast<std::size_t>(n.next[i]), facets.to_next[i]);
+    if (facets.to_above[i] != Facets::kNone)
+      drawing.draw(i, static_cast<std::size_t>(n.above[i]), facets.to_above[i]);
   }
 }
 

@@ -21,7 +21,7 @@ void addHits(const PreparedScan& scan, const ImageBeams& beams, const Options& o
 ///
 /// A facet passes through the voxels of m − 1 points that divide it into m equal pieces, m odd and
 /// as small as pieces of at most 0.4 voxels (or 2047 pieces) allow. Its weight at each of them is
-/// 0.4/(1 + (d/1 m)²) of a full word, d being the distance to the nearer end, whose class it has:
+/// 0.4/(1 + (d/1 m)²) of a full word, d being the distance to the nearer end (its class: Facets.h):
 /// between two beams a scan cannot see what is lower than the wedge between them, and that grows
 /// with the distance from both.
 void addFacets(const ImageBeams& beams, const Facets& facets, const Options& options,

@@ -23,12 +23,22 @@ namespace csom::detail {
 /// its length) and continue one of the two within 0.4 voxels: so a kerb or a car on the road keeps
 /// its border, and road goes over into pavement.
 ///
+/// Each half has the class of its end. But where the next segment beyond one end alone rises more
+/// than half of its length, all of it has the class of the other: the road that leads to a wall is
+/// road.
+///
 /// Beams that ended in class 0, free, have no surface.
 struct Facets {
+  enum Kind : std::uint8_t {
+    kNone,  ///< no surface
+    kOfNearer,
+    kOfFirst,  ///< all of it has the class of the first end
+    kOfSecond
+  };
   void find(const ImageBeams& beams, const Options& options);
 
-  std::vector<std::uint8_t> to_next;  ///< of each beam: whether the segment to it is surface
-  std::vector<std::uint8_t> to_above;
+  std::vector<Kind> to_next;  ///< of each beam
+  std::vector<Kind> to_above;
 };
 
 }  // namespace csom::detail
