@@ -33,6 +33,14 @@ std::uint32_t timeOf(const Packet& packet) {
   return time;
 }
 
+/// In units of DISTANCE_RESOLUTION. Not given.distance(), for the same reason: every other one lies
+/// at an odd address.
+std::uint16_t distanceOf(const CObservationVelodyneScan::laser_return_t& given) {
+  std::uint16_t distance;
+  std::memcpy(&distance, reinterpret_cast<const std::uint8_t*>(&given), sizeof distance);
+  return distance;
+}
+
 /// When and where to the lasers of a block are fired.
 struct FiringPattern {
   int lasers;            ///< of one firing; a block has room for kReturnsOfBlock
@@ -199,14 +207,15 @@ class Decoder {
     const auto& given = packet.blocks[block].laser_returns[k];
     // The last return comes first, the strongest one in the block behind it.
     const bool second = isDual(packet) && block % 2 == 1;
-    if (second && given.distance() == packet.blocks[block - 1].laser_returns[k].distance()) return;
+    if (second && distanceOf(given) == distanceOf(packet.blocks[block - 1].laser_returns[k]))
+      return;
     const Laser& from = lasers_[static_cast<std::size_t>(laser)];
     const int azimuth =
         (packet.blocks[block].rotation() + meanwhile - from.azimuth_correction + 2 * kTurn) % kTurn;
     const float distance =
-        static_cast<float>(given.distance()) * CObservationVelodyneScan::DISTANCE_RESOLUTION +
+        static_cast<float>(distanceOf(given)) * CObservationVelodyneScan::DISTANCE_RESOLUTION +
         from.distance_correction;
-    const bool empty = given.distance() == 0 || distance > farthest_;
+    const bool empty = distanceOf(given) == 0 || distance > farthest_;
     const bool too_near = !empty && distance < nearest_;
     Eigen::Vector3f point(0, 0, 0);
     if (empty)

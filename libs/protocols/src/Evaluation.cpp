@@ -211,7 +211,7 @@ const std::vector<ProtocolInfo>& allProtocols() {
        "labelled ones, those without that two samples of beams cross are free, no others count"},
       {"P8", "What moved",
        "simulated: a LiDAR that labels its points passes a crossing where people and cars go, stop "
-       "and go on",
+       "and go on; ds 0.2 m",
        "exact, of what stays"},
       {kParameterStudy, "Block depth and context threshold", "P1 at ds 0.10 m with see-csom",
        "as P1"}};

@@ -115,6 +115,7 @@ std::vector<Trial> movingTrials(const Scenario& scenario) {
     throw ConfigError(scenario.file + ": nothing moves; give a solid `moves`");
   Trial trial = selfLabelledTrial("P8", scenario);
   trial.options.free_space.mode = FreeSpace::Raycast;
+  trial.options.scan.ds_resolution = trial.options.resolution;
   trial.sight = std::make_shared<std::vector<SightCheck>>(
       planSightChecks(scenario, *trial.scans, trial.options.resolution));
   return {trial};

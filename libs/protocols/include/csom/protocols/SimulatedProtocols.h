@@ -18,7 +18,8 @@ std::vector<Trial> structuredRoomTrials(const Scenario& scenario);
 /// Throws ConfigError if the scenario has no camera.
 std::vector<Trial> robotTrials(const Scenario& scenario);
 
-/// P8: the LiDAR of the scenario labels its points itself, true poses; the truth is that of what
+/// P8: the LiDAR of the scenario labels its points itself, true poses, one training point a voxel
+/// for methods that thin scans out; the truth is that of what
 /// stays, and voxels are asked about once they were in clear sight (Sight.h). Throws ConfigError if
 /// nothing moves, and as planSightChecks() does.
 std::vector<Trial> movingTrials(const Scenario& scenario);
