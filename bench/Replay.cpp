@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // csom-bench-replay: whether a map keeps up with its sensor while a network works beside it.
-// usage: csom-bench-replay [--quick] [--seconds S] [--network YAML [--model FILE] --image FILE]
-//
 // A scan comes every 0.1 s, those of csom-bench in turn, the drive going on and on. Of each its
 // rows are found and it is inserted by the default method with free space to 50 m, on all
 // processors. Its latency is the time from when it comes to when the map has it; it is late if the
 // next one has come by then. The clock starts behind the first scan, whose time is told apart: a
 // process touches its memory for the first time with it. The network labels the image over and
 // over, with what processor time is left. Prints JSON.
-#include <csom/core/FindRangeImage.h>
 #include <csom/core/SemanticMap.h>
 #include <csom/vision/SegmentationNetwork.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <future>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "MapOptions.h"
@@ -42,78 +42,76 @@ struct Arguments {
   bool quick = false;
   double seconds = 60;
   std::string network, model, image;
-
-  Arguments(int argc, char** argv) {
-    for (int i = 1; i < argc; ++i) {
-      const std::string key = argv[i];
-      if (key == "--quick") {
-        quick = true;
-        seconds = 0.5;
-        continue;
-      }
-      if (i + 1 == argc) throw std::invalid_argument(key + ": is no option, or lacks its value");
-      const std::string value = argv[++i];
-      if (key == "--seconds")
-        seconds = std::stod(value);
-      else if (key == "--network")
-        network = value;
-      else if (key == "--model")
-        model = value;
-      else if (key == "--image")
-        image = value;
-      else
-        throw std::invalid_argument(key + ": is no option");
-    }
-    if (network.empty() != image.empty())
-      throw std::invalid_argument("--network and --image go together");
-  }
 };
+
+void declare(CLI::App& app, Arguments& arguments) {
+  app.add_flag("--quick", arguments.quick, "Half a second of a small part of the campus");
+  app.add_option("--seconds", arguments.seconds, "How long scans come")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  CLI::Option* network =
+      app.add_option("--network", arguments.network, "Description of a network that works beside");
+  CLI::Option* image = app.add_option("--image", arguments.image, "What it labels");
+  app.add_option("--model", arguments.model, "In place of the model of the description")
+      ->needs(network);
+  network->needs(image);
+  image->needs(network);
+}
 
 /// Labels one image again and again in a thread of the lowest priority.
 class NetworkBeside {
  public:
-  explicit NetworkBeside(const Arguments& arguments) {
-    if (arguments.network.empty()) return;
-    const auto description = csom::NetworkDescription::load(arguments.network, arguments.model);
-    const cv::Mat image = cv::imread(arguments.image);
-    if (image.empty()) throw std::runtime_error(arguments.image + ": is no image");
-    thread_ = std::thread([this, description, image] { run(description, image); });
-    while (images_ == 0 && !end_) std::this_thread::yield();  // it is loaded by then
-    if (end_) stop();
+  /// Throws what the network throws.
+  NetworkBeside(const csom::NetworkDescription& description, const cv::Mat& image) {
+    std::promise<void> loaded;
+    auto is_loaded = loaded.get_future();
+    finished_ = std::async(std::launch::async,
+                           [this, description, image, loaded = std::move(loaded)]() mutable {
+                             run(description, image, loaded);
+                           });
+    is_loaded.get();
   }
-  ~NetworkBeside() {
-    end_ = true;
-    if (thread_.joinable()) thread_.join();
-  }
+  ~NetworkBeside() { end_ = true; }  // `finished_` waits
 
   std::size_t images() const { return images_; }
-  /// Throws what the network threw.
-  void stop() {
+  /// Throws what the network threw since.
+  void finish() {
     end_ = true;
-    if (thread_.joinable()) thread_.join();
-    if (failure_ != nullptr) std::rethrow_exception(failure_);
+    finished_.get();
   }
 
  private:
-  void run(const csom::NetworkDescription& description, const cv::Mat& image) {
+  void run(const csom::NetworkDescription& description, const cv::Mat& image,
+           std::promise<void>& loaded) {
+    // Of this thread, and of those that OpenCV starts from it.
+    constexpr int kLowest = 19;
+    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);
+    const auto class_of = [](std::uint32_t) { return csom::kFreeClass; };  // not looked at
+    std::unique_ptr<csom::SegmentationNetwork> network;
     try {
-      // Of this thread, and of those that OpenCV starts from it.
-      constexpr int kLowest = 19;
-      setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);
-      csom::SegmentationNetwork network(description);
-      const auto class_of = [](std::uint32_t) { return csom::kFreeClass; };  // not looked at
-      for (; !end_; ++images_) network.segment({image}, class_of);
+      network = std::make_unique<csom::SegmentationNetwork>(description);
+      network->segment({image}, class_of);
     } catch (...) {
-      failure_ = std::current_exception();
-      end_ = true;
+      loaded.set_exception(std::current_exception());
+      return;
     }
+    loaded.set_value();
+    for (; !end_; ++images_) network->segment({image}, class_of);
   }
 
   std::atomic<bool> end_{false};
   std::atomic<std::size_t> images_{0};
-  std::exception_ptr failure_;
-  std::thread thread_;
+  std::future<void> finished_;
 };
+
+/// Null if none is asked for.
+std::unique_ptr<NetworkBeside> startNetwork(const Arguments& arguments) {
+  if (arguments.network.empty()) return nullptr;
+  const cv::Mat image = cv::imread(arguments.image);
+  if (image.empty()) throw std::runtime_error(arguments.image + ": is no image");
+  return std::make_unique<NetworkBeside>(
+      csom::NetworkDescription::load(arguments.network, arguments.model), image);
+}
 
 /// What the sensor would send: points in its frame, where it was.
 class EndlessDrive {
@@ -143,7 +141,11 @@ double quantile(const std::vector<double>& sorted, double q) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  const Arguments arguments(argc, argv);
+  CLI::App app("Tells whether a map keeps up with its sensor");
+  Arguments arguments;
+  declare(app, arguments);
+  CLI11_PARSE(app, argc, argv);
+  if (arguments.quick) arguments.seconds = 0.5;
   const EndlessDrive drive(chooseDrive(arguments.quick));
   csom::Options options = mapOptions();
   options.method = csom::Options{}.method;
@@ -151,12 +153,10 @@ int main(int argc, char** argv) try {
   options.scan.max_range = 50;
   options.threads = 0;
   csom::SemanticMap map(options);
-  NetworkBeside network(arguments);
+  const auto network = startNetwork(arguments);
 
   const auto insert = [&](SensorScan scan) {
-    auto image = csom::findRangeImage(scan.points);
-    if (!image) throw std::runtime_error("the rows of a scan cannot be found");
-    scan.image = *std::move(image);
+    findImage(scan);
     map.insert(inMap(scan));
   };
   const Clock::time_point before_first = Clock::now();
@@ -164,7 +164,7 @@ int main(int argc, char** argv) try {
   const double first = Milliseconds(Clock::now() - before_first).count();
 
   std::vector<double> latencies;
-  const std::size_t images_before = network.images();
+  const std::size_t images_before = network ? network->images() : 0;
   const Clock::time_point start = Clock::now();
   Clock::time_point comes = start;
   for (std::size_t i = 1; Milliseconds(comes - start).count() < 1e3 * arguments.seconds; ++i) {
@@ -175,19 +175,18 @@ int main(int argc, char** argv) try {
     comes += kPeriod;
   }
   const double seconds = Milliseconds(Clock::now() - start).count() / 1e3;
-  const auto images = static_cast<double>(network.images() - images_before);
-  network.stop();
+  const std::size_t images = (network ? network->images() : 0) - images_before;
+  if (network) network->finish();
   std::sort(latencies.begin(), latencies.end());
   const auto late = latencies.end() - std::upper_bound(latencies.begin(), latencies.end(),
                                                        Milliseconds(kPeriod).count());
   std::printf(
       "{\"scans\": %zu, \"late\": %td, \"latency_ms\": {\"median\": %.1f, \"p90\": %.1f, \"p99\": "
       "%.1f, \"max\": %.1f}, \"first_ms\": %.1f, \"images_per_second\": %.2f, \"known_voxels\": "
-      "%zu, \"map_mb\": "
-      "%.1f}\n",
+      "%zu, \"map_mb\": %.1f}\n",
       latencies.size(), late, quantile(latencies, 0.5), quantile(latencies, 0.9),
-      quantile(latencies, 0.99), latencies.back(), first, images / seconds, map.knownVoxelCount(),
-      static_cast<double>(map.memoryBytes()) / 1e6);
+      quantile(latencies, 0.99), latencies.back(), first, static_cast<double>(images) / seconds,
+      map.knownVoxelCount(), static_cast<double>(map.memoryBytes()) / 1e6);
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "csom-bench-replay: %s\n", error.what());

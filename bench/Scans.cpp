@@ -31,12 +31,6 @@ Eigen::Vector3d beamDirection(int column, int columns, int beam) {
           std::sin(elevation)};
 }
 
-void findImage(SensorScan& scan) {
-  auto image = findRangeImage(scan.points);
-  if (!image) throw std::runtime_error("the rows of a scan cannot be found");
-  scan.image = *std::move(image);
-}
-
 SensorScan campusScan(const Scenario& campus, double time, int columns) {
   constexpr double kHeight = 1.8;
   constexpr double kMaxRange = 80;
@@ -59,6 +53,12 @@ SensorScan campusScan(const Scenario& campus, double time, int columns) {
 }
 
 }  // namespace
+
+void findImage(SensorScan& scan) {
+  auto image = findRangeImage(scan.points);
+  if (!image) throw std::runtime_error("the rows of a scan cannot be found");
+  scan.image = *std::move(image);
+}
 
 Drive semanticKitti(const std::string& folder) {
   constexpr std::size_t kScans = 5;

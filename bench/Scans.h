@@ -36,6 +36,9 @@ Drive semanticKitti(const std::string& folder);
 /// through config/worlds/campus.yaml. Throws ConfigError.
 Drive campus(std::size_t scans, int columns);
 
+/// Finds the image of a scan's points. Throws std::runtime_error if they are in no rows.
+void findImage(SensorScan& scan);
+
 /// SemanticKITTI if the environment variable CSOM_DATA names a folder, else the campus; a small
 /// part of the campus if `quick`.
 Drive chooseDrive(bool quick);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <sstream>
 
 #include "ConfusionTable.h"
@@ -140,15 +141,12 @@ void writeParameters(std::ostream& page, const Evaluation& evaluation) {
 
 /// Lines over seconds of clear sight.
 ChartSeries lineOfSight(const TrialResult& result,
-                        const std::function<double(const SightFigures&)>& share) {
+                        std::optional<double> (SightFigures::*share)() const) {
   ChartSeries line{result.method, {}, ChartSeries::Marks::LineAndPoints, false};
   for (std::size_t i = 0; i < kSightSeconds.size(); ++i)
-    line.points.push_back({kSightSeconds[i], 100 * share((*result.sight)[i])});
+    if (const auto here = ((*result.sight)[i].*share)())
+      line.points.push_back({kSightSeconds[i], 100 * *here});
   return line;
-}
-
-double shareOf(std::size_t part, std::size_t of) {
-  return of == 0 ? 0 : static_cast<double>(part) / static_cast<double>(of);
 }
 
 void writeSight(std::ostream& page, const Evaluation& evaluation) {
@@ -167,10 +165,8 @@ void writeSight(std::ostream& page, const Evaluation& evaluation) {
                {"of the voxels that stay", "%", false, 0, std::nullopt},
                {}};
   for (const TrialResult* result : results) {
-    ghosts.series.push_back(lineOfSight(
-        *result, [](const SightFigures& f) { return shareOf(f.ghosts, f.left_by_movers); }));
-    lost.series.push_back(
-        lineOfSight(*result, [](const SightFigures& f) { return shareOf(f.lost, f.stays); }));
+    ghosts.series.push_back(lineOfSight(*result, &SightFigures::ghostShare));
+    lost.series.push_back(lineOfSight(*result, &SightFigures::lostShare));
   }
   page << "<h2>P8: what moved, and what stays</h2>\n" << toHtml(ghosts) << toHtml(lost);
 }

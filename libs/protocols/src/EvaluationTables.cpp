@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <string_view>
 
 #include "MarkdownTable.h"
@@ -205,9 +206,8 @@ std::string knownStreet(const Results& results) {
          exactDetails(results, false, allVoxels);
 }
 
-std::string share(std::size_t part, std::size_t of) {
-  return of == 0 ? kNone
-                 : detail::fixed(100 * static_cast<double>(part) / static_cast<double>(of), 2);
+std::string hundredths(const std::optional<double>& share) {
+  return share ? fixed(100 * *share, 2) : kNone;
 }
 
 std::string whatMoved(const Results& results) {
@@ -219,8 +219,8 @@ std::string whatMoved(const Results& results) {
   MarkdownTable table(header);
   for (const TrialResult* r : results) {
     std::vector<std::string> row{r->method};
-    for (const SightFigures& f : *r->sight) row.push_back(share(f.ghosts, f.left_by_movers));
-    for (const SightFigures& f : *r->sight) row.push_back(share(f.lost, f.stays));
+    for (const SightFigures& f : *r->sight) row.push_back(hundredths(f.ghostShare()));
+    for (const SightFigures& f : *r->sight) row.push_back(hundredths(f.lostShare()));
     row.push_back(weightedIou(*r));
     row.push_back(percent(r->voxels.score.geometricIou()));
     row.push_back(milliseconds(r->ms_per_scan));

@@ -30,12 +30,10 @@ struct Watched {
 class Viewpoint {
  public:
   Viewpoint(const Scenario& scenario, const VelodyneModel& model, double time)
-      : world_(scenario.world), range_(model.range), time_(time) {
-    const PlanarPose robot = scenario.path.at(time);
-    const Eigen::Isometry3d map_from_robot = Eigen::Translation3d(robot.x, robot.y, 0) *
-                                             Eigen::AngleAxisd(robot.yaw, Eigen::Vector3d::UnitZ());
-    map_from_sensor_ = map_from_robot * model.mount.pose();
-  }
+      : world_(scenario.world),
+        range_(model.range),
+        time_(time),
+        map_from_sensor_(scenario.path.at(time).isometry() * model.mount.pose()) {}
 
   /// What the beam through a point ends on.
   std::optional<SurfaceHit> surfaceTowards(const Eigen::Vector3d& point) const {

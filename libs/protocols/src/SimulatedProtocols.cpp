@@ -47,14 +47,12 @@ std::shared_ptr<const std::vector<Scan>> scansOf(const std::string& rawlog,
 /// Odometry knows no other start than the origin: the scans as if it had begun where the robot did.
 std::shared_ptr<const std::vector<Scan>> movedToStart(const std::vector<Scan>& scans,
                                                       const Scenario& scenario) {
-  const PlanarPose start = scenario.path.at(0);
-  const Eigen::Matrix3d rotation =
-      Eigen::AngleAxisd(start.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Isometry3d start = scenario.path.at(0).isometry();
   auto moved = std::make_shared<std::vector<Scan>>(scans);
   for (Scan& scan : *moved) {
-    scan.origin = rotation * scan.origin + Eigen::Vector3d(start.x, start.y, 0);
+    scan.origin = start * scan.origin;
     for (Eigen::Vector3f& point : scan.points)
-      point = (rotation * point.cast<double>()).cast<float>();
+      point = (start.linear() * point.cast<double>()).cast<float>();
   }
   return moved;
 }

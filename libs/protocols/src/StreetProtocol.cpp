@@ -41,9 +41,11 @@ class StreetFolder {
     const KittiScan seen = readKittiScan(file.string());
     for (const Eigen::Vector3f& point : seen.points)
       scan.points.push_back(pose * point.cast<double>());
-    if (auto image = findRangeImage(seen.points)) scan.image = *std::move(image);
     scan.labels = classesOf(file, "labels", scan.points.size());
-    if (predictions_) scan.predictions = classesOf(file, "predictions", scan.points.size());
+    if (predictions_) {
+      scan.predictions = classesOf(file, "predictions", scan.points.size());
+      if (auto image = findRangeImage(seen.points)) scan.image = *std::move(image);
+    }
     return scan;
   }
 

@@ -17,9 +17,6 @@ constexpr double kFirstSample = 1.5;  // [m]
 constexpr double kSampleStep = 0.8;   // of a voxel's edge
 constexpr int kSamplesOfFree = 2;
 
-/// Evidence 1, the mass that a point at the very centre of a voxel would give.
-constexpr auto kTruthCount = static_cast<std::uint32_t>(1 / kCountQuantum);
-
 /// The voxels in which points or samples of beams lie.
 class BeamVoxels {
  public:
@@ -39,19 +36,17 @@ class BeamVoxels {
     }
   }
 
-  /// Makes the voxels free that beams cross and no point lies in.
-  void addFreeTo(SemanticMap& truth) const {
-    std::vector<CountIncrement> counts;
-    for (const auto& [place, samples] : chunks_) {
-      counts.clear();
-      for (std::size_t i = 0; i < samples.size(); ++i)
-        if (samples[i] == kSamplesOfFree)
-          counts.push_back({static_cast<std::uint16_t>(i), kFreeClass, kTruthCount});
-      if (counts.empty()) continue;
-      const auto [x, y, z] = place;
-      const ChunkRef record = Chunk::sum(nullptr, counts);
-      truth.addChunkRecord({x, y, z}, record->record(), record->recordSize());
-    }
+  /// The centres of the voxels that beams cross and no point lies in, as points of class free.
+  Scan freeVoxels() const {
+    Scan scan;
+    for (const auto& [place, samples] : chunks_)
+      for (int i = 0; i < kVoxelsPerChunk; ++i) {
+        if (samples[static_cast<std::size_t>(i)] != kSamplesOfFree) continue;
+        const auto [x, y, z] = place;
+        scan.points.push_back(grid_.center(voxelOfChunk({x, y, z}, i)).cast<float>());
+        scan.labels.push_back(kFreeClass);
+      }
+    return scan;
   }
 
  private:
@@ -100,7 +95,7 @@ VoxelTruth computeStreetTruth(const Street& street, double resolution) {
     }
   truth.insert(scanOf(labelled, Eigen::Vector3d::Zero()));
   if (!truth.boundingBox()) throw std::invalid_argument("no point of the street has a label");
-  beams.addFreeTo(truth);
+  truth.insert(beams.freeVoxels());
   return VoxelTruth(truth);
 }
 

@@ -208,8 +208,7 @@ std::uint32_t rowInFront(const ChunkView& view, std::size_t y, std::size_t z,
 
 void DepthCube::keepInFront(const ChunkBoxes& boxes, int face, bool one_face,
                             std::array<std::uint64_t, kVoxelsPerChunk / 64>& voxels) const {
-  static constexpr float kNothing = ImageLevels::kNothing;  // of a face without any drawing
-  const SquareImage image = faceAt(face).empty ? SquareImage{&kNothing, 0, 0}
+  const SquareImage image = faceAt(face).empty ? SquareImage{&ImageLevels::kNothing, 0, 0}
                                                : SquareImage{faceAt(face).nearest.level(0),
                                                              grid_.side() / 2, grid_.levels() - 2};
   ChunkView view;

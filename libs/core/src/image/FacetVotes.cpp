@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "image/SurfaceWeights.h"
+#include "inference/BoundedWords.h"
 #include "util/Lanes.h"
 
 namespace csom::detail {
@@ -18,6 +18,11 @@ constexpr float kPieceVoxels = 0.4F;
 constexpr std::int32_t kMostPieces = 2047;
 /// Of a score of 1.
 constexpr float kShares = 65536;
+
+/// Of places at these distances from what was measured [m], to be rounded down [quanta].
+CSOM_INLINE Lanes weightAt(const Lanes& distance) {
+  return kPartOfWord * kFullWord / (1 + distance * distance) + 0.5F;
+}
 
 std::int32_t voxelOf(std::int32_t position) {
   return position >> HalfStepPosition::kBits;
@@ -104,7 +109,7 @@ void dividePoints(const HalfStepPosition& from, const HalfStepPosition& to, std:
     const IntLanes to_end = pieces - count;
     const IntLanes nearer = count < to_end ? count : to_end;
     const Lanes distance = piece * __builtin_convertvector(nearer, Lanes);
-    const IntLanes weights = __builtin_convertvector(facetWeight(distance), IntLanes);
+    const IntLanes weights = __builtin_convertvector(weightAt(distance), IntLanes);
     std::memcpy(points.weight.data() + i - 1, &weights, sizeof weights);
     count += static_cast<std::int32_t>(kLanes);
   }
@@ -115,16 +120,13 @@ class FacetDrawing {
   FacetDrawing(const ImageBeams& beams, const Options& options, VoxelWords& words)
       : beams_(beams),
         words_(words),
-        pieces_per_metre_(1 / (kPieceVoxels * static_cast<float>(options.resolution))),
-        surely_whole_(0.99F / (pieces_per_metre_ * pieces_per_metre_)) {}
+        pieces_per_metre_(1 / (kPieceVoxels * static_cast<float>(options.resolution))) {}
 
   void draw(std::size_t a, std::size_t b, Facets::Kind kind) {
     const HalfStepPosition& from = beams_.positions[beams_.neighbours.point[a]];
     const HalfStepPosition& to = beams_.positions[beams_.neighbours.point[b]];
     if (isInVoxelsOfItsEnds(from, to)) return;
-    const float squared = squaredNorm(between(beams_.end(a), beams_.end(b)));
-    if (squared < surely_whole_) return;  // one piece: nothing between the hits
-    const float length = std::sqrt(squared);
+    const float length = std::sqrt(squaredNorm(between(beams_.end(a), beams_.end(b))));
     const float wanted = std::min(length * pieces_per_metre_, static_cast<float>(kMostPieces));
     const auto whole = static_cast<std::int32_t>(wanted);  // towards 0: no call as std::ceil() is
     const std::int32_t pieces = (whole + (static_cast<float>(whole) < wanted ? 1 : 0)) | 1;
@@ -152,7 +154,6 @@ class FacetDrawing {
   const ImageBeams& beams_;
   VoxelWords& words_;
   float pieces_per_metre_;
-  float surely_whole_;  ///< square of a length that is one piece [m²]
   FacetPoints points_;
 };
 

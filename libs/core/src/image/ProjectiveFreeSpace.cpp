@@ -5,8 +5,8 @@
 #include <cmath>
 #include <mutex>
 
-#include "image/SurfaceWeights.h"
 #include "image/VoxelWords.h"
+#include "inference/BoundedWords.h"
 #include "util/Parallel.h"
 
 namespace csom::detail {

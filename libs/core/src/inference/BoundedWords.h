@@ -9,7 +9,7 @@
 
 namespace csom::detail {
 
-/// The word of a whole scan about a voxel, however many hits or beams speak [quanta]: 1.
+/// The word of a whole scan about a voxel with a surface, however many hits speak [quanta]: 1.
 constexpr std::uint32_t kFullWord = 4096;
 static_assert(kFullWord * kCountQuantum == 1);
 

@@ -8,6 +8,14 @@
 #include <string>
 
 namespace csom {
+
+Eigen::Isometry3d PlanarPose::isometry() const {
+  Eigen::Isometry3d robot = Eigen::Isometry3d::Identity();
+  robot.translate(Eigen::Vector3d(x, y, 0));
+  robot.rotate(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
+  return robot;
+}
+
 namespace {
 
 using Eigen::Vector2d;

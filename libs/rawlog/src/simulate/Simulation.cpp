@@ -28,11 +28,7 @@ mrpt::poses::CPose3D toMrpt(const SensorMount& mount) {
 }
 
 Eigen::Isometry3d Moment::robot(double delay) const {
-  const PlanarPose pose = path.at(time + delay);
-  Eigen::Isometry3d robot = Eigen::Isometry3d::Identity();
-  robot.translate(Eigen::Vector3d(pose.x, pose.y, 0));
-  robot.rotate(Eigen::AngleAxisd(pose.yaw, Eigen::Vector3d::UnitZ()));
-  return robot;
+  return path.at(time + delay).isometry();
 }
 
 }  // namespace detail

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 namespace csom {
@@ -12,6 +13,9 @@ struct PlanarPose {
   double x = 0;
   double y = 0;
   double yaw = 0;
+
+  /// Of the robot in the world, z up.
+  Eigen::Isometry3d isometry() const;
 };
 
 /// A drive at constant speed or a row of stations. Poses are multiples of 1 µm and 0.1 µrad, so

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace csom {
@@ -29,6 +30,16 @@ struct SightFigures {
   std::size_t ghosts = 0;          ///< of these, still held to be occupied
   std::size_t stays = 0;           ///< voxels of what stays
   std::size_t lost = 0;            ///< of these, held to be free or unknown
+
+  /// Nothing if there was nothing to ask about.
+  std::optional<double> ghostShare() const { return share(ghosts, left_by_movers); }
+  std::optional<double> lostShare() const { return share(lost, stays); }
+
+ private:
+  static std::optional<double> share(std::size_t part, std::size_t of) {
+    if (of == 0) return std::nullopt;
+    return static_cast<double>(part) / static_cast<double>(of);
+  }
 };
 
 /// Which voxels are asked about and when, in ascending order of scans.

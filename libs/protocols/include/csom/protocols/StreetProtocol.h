@@ -16,7 +16,7 @@ struct StreetScan {
   std::vector<Eigen::Vector3d> points;
   std::vector<ClassId> labels;       ///< kFreeClass: unlabelled
   std::vector<ClassId> predictions;  ///< kFreeClass: unlabelled; empty: not read
-  RangeImage image;                  ///< of all points, or empty
+  RangeImage image;                  ///< of all points; empty: not found, or no predictions read
 };
 
 struct Street {
