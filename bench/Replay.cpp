@@ -47,7 +47,7 @@ struct Arguments {
 void declare(CLI::App& app, Arguments& arguments) {
   app.add_flag("--quick", arguments.quick, "Half a second of a small part of the campus");
   app.add_option("--seconds", arguments.seconds, "How long scans come")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(0.1, 86400.0))
       ->capture_default_str();
   CLI::Option* network =
       app.add_option("--network", arguments.network, "Description of a network that works beside");
