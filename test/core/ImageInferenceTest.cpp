@@ -171,6 +171,86 @@ TEST(ImageProperties, FreeSpaceOfTheImageAgreesWithThatOfRays) {
   EXPECT_GT(between, 500U);
 }
 
+/// What a sensor at `origin` sees of ground at z = −0.1, the middle of a voxel, and of a wall at x
+/// = 10, from 20° below the horizon up to 10° above it; of a person in front of it as well, a slab
+/// at x = 5 up to a height of 2 m.
+Scan scanOfStreet(const Eigen::Vector3d& origin, bool person) {
+  constexpr double kDegree = 3.14159265358979323846 / 180;
+  Scan scan;
+  scan.origin = origin;
+  scan.image.column_step = 1;
+  for (std::uint16_t row = 0; row < 16; ++row)
+    for (std::int32_t column = 0; column <= 80; ++column) {
+      const double elevation = (2 * row - 20) * kDegree;
+      const double azimuth = 0.5 * (column - 40) * kDegree;
+      const Eigen::Vector3d beam(std::cos(elevation) * std::cos(azimuth),
+                                 std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+      double range = (10 - origin.x()) / beam.x();
+      ClassId label = 2;
+      const double to_ground = -(origin.z() + 0.1) / beam.z();
+      if (elevation < 0 && to_ground < range) {
+        range = to_ground;
+        label = 1;
+      }
+      const double to_person = (5 - origin.x()) / beam.x();
+      const Eigen::Vector3d there = origin + to_person * beam;
+      if (person && to_person < range && std::abs(there.y()) < 0.6 && there.z() < 2) {
+        range = to_person;
+        label = 3;
+      }
+      scan.points.push_back((range * beam).cast<float>());
+      scan.labels.push_back(label);
+      scan.image.pixels.push_back({row, column});
+    }
+  return scan;
+}
+
+Options optionsOfStreet() {
+  Options options;
+  options.number_of_classes = 4;
+  options.resolution = 0.2;
+  options.free_space.mode = FreeSpace::Projective;
+  return options;
+}
+
+/// The voxels of the hits of a class.
+std::vector<VoxelIndex> voxelsOf(const SemanticMap& map, const Scan& scan, ClassId label) {
+  std::vector<VoxelIndex> voxels;
+  for (std::size_t i = 0; i < scan.points.size(); ++i)
+    if (scan.labels[i] == label)
+      voxels.push_back(map.grid().voxelAt(scan.origin + scan.points[i].cast<double>()));
+  return voxels;
+}
+
+TEST(ImageProperties, WhoHasLeftLeavesAlsoWhereTheImageEnds) {
+  // The uppermost beams hit the person, so that half of those voxels lies beyond the image.
+  SemanticMap map(optionsOfStreet());
+  const Scan with_person = scanOfStreet({0, 0, 1.1}, true);
+  for (int i = 0; i < 5; ++i) map.insert(with_person);
+  const std::vector<VoxelIndex> person = voxelsOf(map, with_person, 3);
+  ASSERT_GT(person.size(), 100U);
+  for (const VoxelIndex& v : person) EXPECT_EQ(map.voxel(v).state(), VoxelState::Occupied);
+  for (int i = 0; i < 20; ++i) map.insert(scanOfStreet({0, 0, 1.1}, false));
+  for (const VoxelIndex& v : person)
+    EXPECT_EQ(map.voxel(v).state(), VoxelState::Free) << v.x << ' ' << v.y << ' ' << v.z;
+}
+
+TEST(ImageProperties, GroundStaysThatTheLowestBeamsHaveLeftBehind) {
+  // The sensor comes nearer: what its lowest beams hit lies below them in the next scans, partly
+  // beside and partly in front of what they hit then.
+  SemanticMap map(optionsOfStreet());
+  std::vector<VoxelIndex> ground;
+  for (int i = 0; i < 30; ++i) {
+    const Scan scan = scanOfStreet({0.1 * i, 0, 1.1}, false);
+    map.insert(scan);
+    for (const VoxelIndex& v : voxelsOf(map, scan, 1)) ground.push_back(v);
+  }
+  ASSERT_GT(ground.size(), 5000U);
+  std::size_t lost = 0;
+  for (const VoxelIndex& v : ground) lost += map.voxel(v).state() != VoxelState::Occupied ? 1 : 0;
+  EXPECT_EQ(lost, 0U);
+}
+
 TEST(ImageProperties, AbsurdImagesAreMapsAllTheSame) {
   for (int seed = 0; seed < kRandomCases; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

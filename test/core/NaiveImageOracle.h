@@ -495,20 +495,27 @@ class NaiveImageOracle {
                        static_cast<float>(face.spacings / face.drawings) * (0.5F * (near + far)));
     }
     const float covered = beams > r_ ? r_ / beams : 1;
-    const auto count = static_cast<std::uint32_t>(16.0F * 4096.0F * covered * covered + 0.5F);
+    if (0.2F * 4096.0F * covered * covered < 0.5F) return;
     for (std::int64_t i = 0; i < 512; ++i) {
       const Cell voxel{low[0] + i % 8, low[1] + i / 8 % 8, low[2] + i / 64};
       const std::vector<Window> own = windowsOf(boxOf(voxel, voxel));
-      if (own.empty() ||
-          std::any_of(own.begin(), own.end(), [&](const Window& w) { return !isFree(w); }))
-        continue;
-      if (out_.count(inMap(voxel)) > 0) continue;
+      const auto anyIs = [&](Sight sight) {
+        return std::any_of(own.begin(), own.end(),
+                           [&](const Window& w) { return sightOf(w) == sight; });
+      };
+      if (own.empty() || anyIs(Sight::Blocked) || out_.count(inMap(voxel)) > 0) continue;
+      const float word = anyIs(Sight::InPart) ? 0.2F * 4096.0F : 16.0F * 4096.0F;
+      const auto count = static_cast<std::uint32_t>(word * covered * covered + 0.5F);
       out_[inMap(voxel)] = {{kFreeClass, count}};
       ++free_;
     }
   }
-  bool isFree(const Window& w) {
+  /// Through a window one sees a voxel as a whole, in part, or not.
+  enum class Sight { Whole, InPart, Blocked };
+  Sight sightOf(const Window& w) {
     Face& face = faces_[static_cast<std::size_t>(w.face)];
+    bool whole = true;
+    bool any = false;
     // Squares of a power of two, no longer than the longer side, from each corner inwards.
     int edge = 1;
     while (2 * edge <= std::max(w.u1 - w.u0, w.v1 - w.v0) + 1 && 4 * edge <= side_) edge *= 2;
@@ -517,9 +524,11 @@ class NaiveImageOracle {
         for (int v = v0; v < std::min(v0 + edge, side_); ++v)
           for (int u = u0; u < std::min(u0 + edge, side_); ++u) {
             const float inverse = pixelOf(face.inverse, u, v);
-            if (inverse == -1 || inverse > 1 / w.far) return false;
+            if (inverse > 1 / w.far) return Sight::Blocked;
+            (inverse == -1 ? whole : any) = inverse != -1;
           }
-    return true;
+    if (!any) return Sight::Blocked;
+    return whole ? Sight::Whole : Sight::InPart;
   }
 
   const Options& o_;

@@ -53,7 +53,8 @@ bool DepthCube::isAllBehind(const CubeWindow& window) const {
   const float* const pixels = level == 0 ? face.nearest.level(0) : face.farthest.level(level);
   for (int v = window.first_v >> level; v <= window.last_v >> level; ++v)
     for (int u = window.first_u >> level; u <= window.last_u >> level; ++u) {
-      if (pixels[v * side + u] <= limit) return false;
+      const float inverse = pixels[v * side + u];
+      if (inverse > 0 && inverse <= limit) return false;
     }
   return true;
 }
@@ -159,11 +160,16 @@ void lookAt(const ChunkBoxes& boxes, int face, bool one_face, const SquareImage&
     }
 }
 
-/// A row of voxels along x: bit i is that of voxel i. Those that are not seen through the face
-/// pass.
+/// As VoxelsInFront, of a row along x: bit i is that of voxel i.
+struct RowInFront {
+  std::uint32_t in_front;
+  std::uint32_t all_seen;
+};
+
+/// Voxels that are not seen through the face pass.
 CSOM_EVERY_PROCESSOR
-std::uint32_t rowInFront(const ChunkView& view, std::size_t y, std::size_t z,
-                         std::size_t depth_axis, bool one_face, const SquareImage& image) {
+RowInFront rowInFront(const ChunkView& view, std::size_t y, std::size_t z, std::size_t depth_axis,
+                      bool one_face, const SquareImage& image) {
   const std::size_t depth = depth_axis == 2 ? z : y;
   const PixelRange& u = view.u[depth];
   PixelRange v = view.v[depth_axis == 0 ? z : depth];
@@ -191,34 +197,51 @@ std::uint32_t rowInFront(const ChunkView& view, std::size_t y, std::size_t z,
   const std::array<IntLanes, 4> squares{upper + u.first, upper + second_u, lower + u.first,
                                         lower + second_u};
   Lanes inverse{};
+  IntLanes signs{};
   for (const IntLanes& square : squares) {
     Lanes here;
     for (std::size_t lane = 0; lane < kLanes; ++lane) here[lane] = image.squares[square[lane]];
+    IntLanes bits;
+    std::memcpy(&bits, &here, sizeof bits);
+    signs |= bits;
+    here = here < 0 ? -here : here;
     inverse = inverse > here ? inverse : here;
   }
-  IntLanes passes = inverse <= view.far[depth];
-  if (!one_face) passes |= view.seen[8 * z + y] == 0;
-  std::uint32_t bits = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane)
-    bits |= static_cast<std::uint32_t>(passes[lane] & 1) << lane;
-  return bits;
+  IntLanes in_front = (inverse <= view.far[depth]) & (inverse > 0);
+  IntLanes all_seen = signs >= 0;
+  if (!one_face) {
+    const IntLanes not_seen = view.seen[8 * z + y] == 0;
+    in_front |= not_seen;
+    all_seen |= not_seen;
+  }
+  RowInFront row{0, 0};
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    row.in_front |= static_cast<std::uint32_t>(in_front[lane] & 1) << lane;
+    row.all_seen |= static_cast<std::uint32_t>(all_seen[lane] & 1) << lane;
+  }
+  return row;
 }
 
 }  // namespace
 
 void DepthCube::keepInFront(const ChunkBoxes& boxes, int face, bool one_face,
-                            std::array<std::uint64_t, kVoxelsPerChunk / 64>& voxels) const {
-  const SquareImage image = faceAt(face).empty ? SquareImage{&ImageLevels::kNothing, 0, 0}
+                            VoxelsInFront& voxels) const {
+  const SquareImage image = faceAt(face).empty ? SquareImage{&DepthFace::kNothing, 0, 0}
                                                : SquareImage{faceAt(face).nearest.level(0),
                                                              grid_.side() / 2, grid_.levels() - 2};
   ChunkView view;
   lookAt(boxes, face, one_face, image, view);
   const std::size_t depth_axis = FaceAxes(face).depth;
   for (std::size_t z = 0; z < kChunkSide; ++z) {
-    std::uint64_t layer = 0;
-    for (std::size_t y = 0; y < kChunkSide; ++y)
-      layer |= std::uint64_t{rowInFront(view, y, z, depth_axis, one_face, image)} << (8 * y);
-    voxels[z] &= layer;
+    std::uint64_t in_front = 0;
+    std::uint64_t all_seen = 0;
+    for (std::size_t y = 0; y < kChunkSide; ++y) {
+      const RowInFront row = rowInFront(view, y, z, depth_axis, one_face, image);
+      in_front |= std::uint64_t{row.in_front} << (8 * y);
+      all_seen |= std::uint64_t{row.all_seen} << (8 * y);
+    }
+    voxels.in_front[z] &= in_front;
+    voxels.all_seen[z] &= all_seen;
   }
 }
 

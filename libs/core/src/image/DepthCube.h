@@ -24,6 +24,13 @@ struct ChunkBoxes {
   std::array<Bounds, 3> min, max;
 };
 
+/// Voxels of a chunk, a bit each.
+struct VoxelsInFront {
+  using Voxels = std::array<std::uint64_t, kVoxelsPerChunk / 64>;
+  Voxels in_front;  ///< of something that was drawn in their window, and behind nothing of it
+  Voxels all_seen;  ///< all of their window was drawn
+};
+
 /// A pixel of the cube holds the inverse of the depth [1/m] at which something may be seen there at
 /// the nearest.
 ///
@@ -37,14 +44,12 @@ class CSOM_OF_ONE_BINARY DepthCube {
 
   const CubeGrid& grid() const { return grid_; }
 
-  /// Of the voxels of a chunk, a bit each, takes out those that do not lie in front of what was
-  /// drawn in all of their window. Asks those whose centre is seen through the face; all of them if
-  /// they are all seen through this `one_face`.
+  /// Takes out voxels that do not lie in front, or are not seen as a whole. Asks those whose centre
+  /// is seen through the face; all of them if they are all seen through this `one_face`.
   ///
   /// A window is looked at through squares of pixels: of the largest edge 2^n that is no longer
   /// than its longer side, at each of its corners, inside it along that side.
-  void keepInFront(const ChunkBoxes& boxes, int face, bool one_face,
-                   std::array<std::uint64_t, kVoxelsPerChunk / 64>& voxels) const;
+  void keepInFront(const ChunkBoxes& boxes, int face, bool one_face, VoxelsInFront& voxels) const;
   /// Whether the box, and every box in it, lies behind all that was drawn, if any was.
   bool isAllBehind(const CubeWindow& window) const;
 

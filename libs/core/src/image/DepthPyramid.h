@@ -27,16 +27,13 @@ struct PixelRectangle {
   }
 };
 
-/// Levels of square images, row after row, one level after the other: kNothing but for what is
+/// Levels of square images, row after row, one level after the other: `nothing` but for what is
 /// written. Memory is kept from scan to scan, and cleared where it was written.
 class ImageLevels {
  public:
-  /// Nearer than all that can be drawn.
-  static constexpr float kNothing = std::numeric_limits<float>::infinity();
-
   /// How many pixels an edge has, from the lowest level up.
   enum class Sides { Equal, Halved };
-  explicit ImageLevels(Sides sides) : halved_(sides == Sides::Halved) {}
+  ImageLevels(Sides sides, float nothing) : halved_(sides == Sides::Halved), nothing_(nothing) {}
 
   void reset(int side, int levels) {
     if (side == side_ && levels == levels_) {
@@ -45,7 +42,7 @@ class ImageLevels {
     }
     side_ = side;
     levels_ = levels;
-    pixels_.assign(offset(levels), kNothing);
+    pixels_.assign(offset(levels), nothing_);
     written_ = {};
   }
   /// To be called before pixels of a level are written.
@@ -72,11 +69,12 @@ class ImageLevels {
     const std::size_t side = sideOf(level);
     float* const pixels = this->level(level);
     for (std::size_t v = written.first_v; v < written.end_v && !written.empty(); ++v)
-      std::fill(pixels + v * side + written.first_u, pixels + v * side + written.end_u, kNothing);
+      std::fill(pixels + v * side + written.first_u, pixels + v * side + written.end_u, nothing_);
     written = {};
   }
 
   bool halved_;
+  float nothing_;
   int side_ = 0;
   int levels_ = 0;
   std::vector<float> pixels_;
@@ -85,14 +83,17 @@ class ImageLevels {
 
 /// What is known about the pixels of one face: inverse depths.
 struct DepthFace {
+  /// Of `nearest`: nothing was drawn.
+  static constexpr float kNothing = -0.0F;
+
   bool empty = true;  ///< nothing was drawn, and nothing below is set
-  /// The largest of squares of 2^level pixels an edge, for each pixel at which one begins: kNothing
-  /// if anything in it was not drawn. Of as much of it as lies in the image. Four of them,
+  /// The largest of squares of 2^level pixels an edge, for each pixel at which one begins, negative
+  /// if some of the square was not drawn; of as much of it as lies in the image. Four of them,
   /// overlapping, cover any larger window.
-  ImageLevels nearest{ImageLevels::Sides::Equal};
-  /// The smallest of what was drawn, each level of four pixels of the one below, the first one of
-  /// the lowest level of `nearest`. Level 0 is not used.
-  ImageLevels farthest{ImageLevels::Sides::Halved};
+  ImageLevels nearest{ImageLevels::Sides::Equal, kNothing};
+  /// The smallest of what was drawn, infinite where nothing was, each level of four pixels of the
+  /// one below, the first one of the lowest level of `nearest`. Level 0 is not used.
+  ImageLevels farthest{ImageLevels::Sides::Halved, std::numeric_limits<float>::infinity()};
   /// Mean distance of adjacent beams at a depth of 1, along the wider side of what was drawn.
   float spacing = 0;
 };

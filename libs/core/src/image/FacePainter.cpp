@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "util/Parallel.h"
 
@@ -212,16 +213,9 @@ void FacePainter::prepare(const PixelBox& box) {
   drawn_.add(pixels);
 }
 
-namespace {
-
-void raise(float& pixel, float inverse) {
-  if (pixel == ImageLevels::kNothing || pixel < inverse) pixel = inverse;
-}
-
-}  // namespace
-
 void FacePainter::put(int u, int v, float inverse) {
-  raise(image_[static_cast<std::size_t>(v) * side_ + static_cast<std::size_t>(u)], inverse);
+  float& pixel = image_[static_cast<std::size_t>(v) * side_ + static_cast<std::size_t>(u)];
+  pixel = std::max(pixel, inverse);
 }
 
 namespace {
@@ -231,11 +225,11 @@ void closeLine(const float* before, std::size_t stride, std::size_t size, float*
   std::size_t last_drawn = size;  // none yet
   for (std::size_t i = 0; i < size; ++i) {
     const float end = before[i * stride];
-    if (end == ImageLevels::kNothing) continue;
+    if (end == DepthFace::kNothing) continue;
     if (last_drawn + 1 < i && i - last_drawn <= kGapPixels + 1) {
       const float inverse = std::max(end, before[last_drawn * stride]);
       for (std::size_t gap = last_drawn + 1; gap < i; ++gap)
-        raise(pixels[gap * pixel_stride], inverse);
+        pixels[gap * pixel_stride] = std::max(pixels[gap * pixel_stride], inverse);
     }
     last_drawn = i;
   }
@@ -269,8 +263,13 @@ void FacePainter::buildPyramids() {
 void FacePainter::shrink(int level) {
   ImageLevels& levels = out_.farthest;
   const std::size_t side = levels.sideOf(level);
-  const float* const from = level == 1 ? image_ : levels.level(level - 1);
+  const bool of_image = level == 1;
+  const float* const from = of_image ? image_ : levels.level(level - 1);
   float* const to = levels.level(level);
+  const auto drawn = [of_image](float inverse) {
+    constexpr float kNothing = std::numeric_limits<float>::infinity();
+    return of_image && inverse == DepthFace::kNothing ? kNothing : inverse;
+  };
   const PixelRectangle pixels{drawn_.first_u >> level, ((drawn_.end_u - 1) >> level) + 1,
                               drawn_.first_v >> level, ((drawn_.end_v - 1) >> level) + 1};
   levels.willWrite(level, pixels);
@@ -278,28 +277,41 @@ void FacePainter::shrink(int level) {
     const float* const upper = from + 4 * v * side;
     const float* const lower = upper + 2 * side;
     for (std::size_t u = pixels.first_u; u < pixels.end_u; ++u)
-      to[v * side + u] = std::min(std::min(upper[2 * u], upper[2 * u + 1]),
-                                  std::min(lower[2 * u], lower[2 * u + 1]));
+      to[v * side + u] = std::min(std::min(drawn(upper[2 * u]), drawn(upper[2 * u + 1])),
+                                  std::min(drawn(lower[2 * u]), drawn(lower[2 * u + 1])));
   }
 }
 
-/// Makes each square of a level of four of the level below it. One that begins or ends beyond what
-/// was drawn holds pixels that were not.
+namespace {
+
+/// The nearest of two squares, negative if either of them is.
+float nearestOf(float a, float b) {
+  const float nearest = std::max(std::abs(a), std::abs(b));
+  return std::signbit(a) || std::signbit(b) ? -nearest : nearest;
+}
+
+}  // namespace
+
+/// Makes each square of a level of four of the level below it, where anything was drawn.
 void FacePainter::slide(int level) {
   const std::size_t half = std::size_t{1} << (level - 1);
   const float* const from = out_.nearest.level(level - 1);
   float* const to = out_.nearest.level(level);
-  out_.nearest.willWrite(level, drawn_);
+  const auto first = [&](std::size_t pixel) { return pixel - std::min(pixel, 2 * half - 1); };
+  const PixelRectangle pixels{first(drawn_.first_u), drawn_.end_u, first(drawn_.first_v),
+                              drawn_.end_v};
+  out_.nearest.willWrite(level, pixels);
   // Beyond the image is nothing that a square could hold: the square itself instead.
   const std::size_t both_u = std::min(drawn_.end_u, side_ - std::min(side_, half));
-  for (std::size_t v = drawn_.first_v; v < drawn_.end_v; ++v) {
+  for (std::size_t v = pixels.first_v; v < pixels.end_v; ++v) {
     const float* const upper = from + v * side_;
     const float* const lower = v + half < side_ ? upper + half * side_ : upper;
     float* const row = to + v * side_;
-    std::size_t u = drawn_.first_u;
+    std::size_t u = pixels.first_u;
     for (; u < both_u; ++u)
-      row[u] = std::max(std::max(upper[u], upper[u + half]), std::max(lower[u], lower[u + half]));
-    for (; u < drawn_.end_u; ++u) row[u] = std::max(upper[u], lower[u]);
+      row[u] =
+          nearestOf(nearestOf(upper[u], upper[u + half]), nearestOf(lower[u], lower[u + half]));
+    for (; u < drawn_.end_u; ++u) row[u] = nearestOf(upper[u], lower[u]);
   }
 }
 

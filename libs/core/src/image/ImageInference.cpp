@@ -130,14 +130,43 @@ class ImageInference {
     const ChunkIndex base = chunkOf(beams_.base);
     ChunkIncrements out{{base.x + from_base.x, base.y + from_base.y, base.z + from_base.z}, {}, {}};
     if (!isAddressable(out.chunk)) return out;
-    if ((last - 1)->part == ChunkSource::kFreePart) out.free = free_[(--last)->index].free;
+    const ChunkIncrements* free = nullptr;
+    if ((last - 1)->part == ChunkSource::kFreePart) {
+      free = &free_[(--last)->index];
+      out.free = free->free;
+    }
     if (first != last) appendWords(first, last, out, figures);
     std::size_t free_voxels = 0;
     for (const std::uint64_t bits : out.free.voxels)
       free_voxels += static_cast<std::size_t>(__builtin_popcountll(bits));
     if (free_voxels == 0) out.free.count = 0;
+    if (free != nullptr) free_voxels += addWithoutSurface(free->increments, out.increments);
     figures.free += free_voxels;
     return out;
+  }
+
+  /// Adds those of voxels that have none yet, and tells how many they are. Both are sorted.
+  static std::size_t addWithoutSurface(const std::vector<CountIncrement>& free,
+                                       std::vector<CountIncrement>& increments) {
+    if (free.empty()) return 0;
+    std::vector<CountIncrement> all;
+    all.reserve(free.size() + increments.size());
+    const auto before = [](const CountIncrement& a, const CountIncrement& b) {
+      return a.voxel < b.voxel;
+    };
+    std::size_t added = 0;
+    auto next = increments.begin();
+    for (const CountIncrement& increment : free) {
+      const auto here = std::lower_bound(next, increments.end(), increment, before);
+      all.insert(all.end(), next, here);
+      next = here;
+      if (here != increments.end() && here->voxel == increment.voxel) continue;
+      all.push_back(increment);
+      ++added;
+    }
+    all.insert(all.end(), next, increments.end());
+    increments = std::move(all);
+    return added;
   }
 
   /// Voxels with surface, which are therefore not free.

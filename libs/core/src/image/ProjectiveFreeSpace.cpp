@@ -16,9 +16,12 @@ namespace {
 /// Half the edge of the cube that must be free, in voxels: a tenth is left on each side.
 constexpr float kHalfEdge = 0.4F;
 
-/// What a scan says of a voxel that it looks through, of which it covers all [quanta]. Much more
-/// than of one that it hits: whatever was there has left, however long it stood.
+/// What a scan says of a voxel that it looks through as a whole [quanta]. Much more than of one
+/// that it hits: whatever was there has left, however long it stood.
 constexpr float kFreeWord = 16 * kFullWord;
+/// Of one that it sees only in part, as at the border of the image: half of what a beam says.
+/// Ground that the lowest beams hit but once, and lay partly in front of afterwards, must stay.
+constexpr float kFreeWordInPart = 0.5F * kPartOfWord * kFullWord;
 
 /// A cube of chunks: 2^level a side, at this position in units of it.
 struct Node {
@@ -123,26 +126,43 @@ class FreeSpaceSearch {
   }
 
   void searchChunk(const Node& node, const CubeWindows& windows, ScanIncrements& out) const {
-    FreeIncrements free{{}, countAt(windows)};
-    free.voxels.fill(~std::uint64_t{0});
+    VoxelsInFront voxels;
+    voxels.in_front.fill(~std::uint64_t{0});
+    voxels.all_seen.fill(~std::uint64_t{0});
     const bool one_face = windows.size() == 1;
     const ChunkBoxes boxes = boxesOf(node);
     for (const CubeWindow& window : windows)
-      cube_.keepInFront(boxes, window.face, one_face, free.voxels);
-    const bool any = std::any_of(free.voxels.begin(), free.voxels.end(),
+      cube_.keepInFront(boxes, window.face, one_face, voxels);
+    const bool any = std::any_of(voxels.in_front.begin(), voxels.in_front.end(),
                                  [](std::uint64_t word) { return word != 0; });
-    if (any) out.push_back({{base_.x + node.x, base_.y + node.y, base_.z + node.z}, {}, free});
+    if (!any) return;
+    const float covered = coveredAt(windows);
+    const auto count = [covered](float word) {
+      return static_cast<std::uint32_t>(word * covered * covered + 0.5F);
+    };
+    const std::uint32_t count_in_part = count(kFreeWordInPart);
+    if (count_in_part == 0) return;  // beams are too far apart to say anything
+    ChunkIncrements& chunk = out.emplace_back();
+    chunk.chunk = {base_.x + node.x, base_.y + node.y, base_.z + node.z};
+    chunk.free.count = count(kFreeWord);
+    for (std::size_t word = 0; word < voxels.in_front.size(); ++word) {
+      chunk.free.voxels[word] = voxels.in_front[word] & voxels.all_seen[word];
+      for (std::uint64_t bits = voxels.in_front[word] & ~voxels.all_seen[word]; bits != 0;
+           bits &= bits - 1) {
+        const auto voxel =
+            static_cast<std::uint16_t>(64 * word + static_cast<unsigned>(__builtin_ctzll(bits)));
+        chunk.increments.push_back({voxel, kFreeClass, count_in_part});
+      }
+    }
   }
 
-  /// The word about the voxels of a chunk: for the share of a voxel's face that beams cover, where
-  /// they are farther apart than it is wide.
-  std::uint32_t countAt(const CubeWindows& windows) const {
+  /// The share of a voxel's face that beams cover, where they are farther apart than it is wide.
+  float coveredAt(const CubeWindows& windows) const {
     float beams = 0;
     for (const CubeWindow& window : windows)
       beams =
           std::max(beams, cube_.spacing(window.face, 0.5F * (window.nearest + window.farthest)));
-    const float covered = beams <= resolution_ ? 1 : resolution_ / beams;
-    return static_cast<std::uint32_t>(kFreeWord * covered * covered + 0.5F);
+    return beams <= resolution_ ? 1 : resolution_ / beams;
   }
 
   const DepthCube& cube_;
